@@ -1,0 +1,179 @@
+"""Kinds, skills and fluents: what a robot can do, declared once. Nothing here performs anything."""
+
+import hashlib
+import types
+from collections.abc import Mapping
+from enum import StrEnum
+from functools import cached_property
+from typing import Annotated, Any, Literal, Union, get_args, get_origin, get_type_hints
+
+import msgspec
+from msgspec import Meta
+
+FluentLiteral = bool | str | float
+
+
+class SkillArgs(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True, omit_defaults=True):
+    """Base of a skill's typed arguments: one field an argument, bounds and units in `msgspec.Meta`."""
+
+
+class Entity(StrEnum):
+    """What an argument's text names. A plain number names nothing."""
+
+    NONE = "none"
+    LOCATION = "location"
+    OBJECT = "object"
+    TARGET = "target"
+    """A run-time value of type position, or a named location."""
+
+
+def number(*, ge: float, le: float, unit: str, frame: str = "", axis: str = "", about: str) -> Meta:
+    """The `Meta` of a numeric argument: inclusive bounds, unit and frame; `axis` ties it to the operational area."""
+    return Meta(ge=ge, le=le, description=about, extra={"unit": unit, "frame": frame, "axis": axis})
+
+
+def entity(what: Entity, about: str) -> Meta:
+    """The `Meta` of an argument that names a location, an object or a run-time value."""
+    return Meta(description=about, extra={"entity": what.value})
+
+
+class Param(msgspec.Struct, frozen=True, kw_only=True):
+    """One argument of a skill, read off its `SkillArgs`."""
+
+    name: str
+    entity: Entity = Entity.NONE
+    ge: float | None = None
+    le: float | None = None
+    unit: str = ""
+    frame: str = ""
+    axis: str = ""
+    about: str = ""
+    optional: bool = False
+
+    @property
+    def is_number(self) -> bool:
+        return self.entity is Entity.NONE
+
+
+class Fluent(msgspec.Struct, frozen=True, kw_only=True):
+    """A fact about a robot that telemetry observes: its domain, who observes it, and how old it may be."""
+
+    name: str
+    domain: Literal["bool", "place", "object", "number"]
+    about: str
+    observer: str = "telemetry"
+    max_age_s: float = 2.0
+    tolerance_m: float = 0.0
+    """For a place: how far from it still counts as being there."""
+
+
+class Published(msgspec.Struct, frozen=True, kw_only=True):
+    """A run-time value that skills of a kind publish."""
+
+    name: str
+    type: Literal["position"]
+    about: str
+    max_age_s: float
+    by: tuple[str, ...]
+    """Skills whose run makes or reports the value."""
+
+
+class Skill(msgspec.Struct, frozen=True, kw_only=True, dict=True):
+    """A skill's declaration. Effects map a fluent to a literal, or to `$argument` for the argument's value."""
+
+    name: str
+    about: str
+    args: type[SkillArgs]
+    forms: tuple[tuple[str, ...], ...] = ((),)
+    """Which optional arguments go together: exactly one form must be given, on top of the required arguments."""
+    words: tuple[str, ...]
+    """Action words of a request that mean this skill."""
+    needs: Mapping[str, FluentLiteral] = {}
+    effects: Mapping[str, FluentLiteral] = {}
+    during: Mapping[str, FluentLiteral] = {}
+    may: tuple[Mapping[str, FluentLiteral], ...] = ()
+    """Leftovers that a failure may leave behind."""
+    reports: tuple[str, ...] = ()
+    """Published values that a run of this skill renews."""
+    uses_values: bool = False
+    timeout_s: float
+    cost: float = 1.0
+    on_stop: str
+    on_link_loss: str
+    safe: bool = False
+    """May serve as a safe state's skill: it has no preconditions."""
+
+    @cached_property
+    def params(self) -> tuple[Param, ...]:
+        return _params(self.args)
+
+    def param(self, name: str) -> Param | None:
+        return next((p for p in self.params if p.name == name), None)
+
+
+class Kind(msgspec.Struct, frozen=True, kw_only=True, dict=True):
+    """A kind of robot: its fluents, its skills, the values it publishes, what it does when left alone."""
+
+    name: str
+    about: str
+    aliases: tuple[str, ...]
+    fluents: tuple[Fluent, ...]
+    skills: tuple[Skill, ...]
+    publishes: tuple[Published, ...] = ()
+    idle_on_stop: str
+    idle_on_link_loss: str
+
+    def skill(self, name: str) -> Skill | None:
+        return next((s for s in self.skills if s.name == name), None)
+
+    def fluent(self, name: str) -> Fluent | None:
+        return next((f for f in self.fluents if f.name == name), None)
+
+    @cached_property
+    def digest(self) -> str:
+        """SHA-256 over the whole declaration: two sides with the same digest mean the same bounds and effects."""
+        return hashlib.sha256(msgspec.json.encode(_plain(self), order="sorted")).hexdigest()
+
+
+def _plain(value: Any) -> Any:
+    """A declaration as builtins; a `SkillArgs` class becomes its parameters."""
+    if isinstance(value, type) and issubclass(value, SkillArgs):
+        return [_plain(p) for p in _params(value)]
+    if isinstance(value, msgspec.Struct):
+        return {f: _plain(getattr(value, f)) for f in value.__struct_fields__}
+    if isinstance(value, Mapping):
+        return {str(k): _plain(v) for k, v in value.items()}
+    if isinstance(value, list | tuple):
+        return [_plain(v) for v in value]
+    return value
+
+
+def _params(args: type[SkillArgs]) -> tuple[Param, ...]:
+    hints = get_type_hints(args, include_extras=True)
+    optional = {f.name for f in msgspec.structs.fields(args) if not f.required}
+    return tuple(_param(name, hints[name], name in optional) for name in args.__struct_fields__)
+
+
+def _param(name: str, hint: Any, optional: bool) -> Param:
+    meta = _meta(hint)
+    extra = (meta.extra if meta else None) or {}
+    return Param(
+        name=name,
+        entity=Entity(extra.get("entity", "none")),
+        ge=None if meta is None or meta.ge is None else float(meta.ge),
+        le=None if meta is None or meta.le is None else float(meta.le),
+        unit=extra.get("unit", ""),
+        frame=extra.get("frame", ""),
+        axis=extra.get("axis", ""),
+        about=(meta.description if meta else None) or "",
+        optional=optional,
+    )
+
+
+def _meta(hint: Any) -> Meta | None:
+    """The `Meta` of an annotation, also inside `X | None`."""
+    if get_origin(hint) is Annotated:
+        return next((m for m in get_args(hint)[1:] if isinstance(m, Meta)), None)
+    if get_origin(hint) in (Union, types.UnionType):
+        return next((m for m in map(_meta, get_args(hint)) if m is not None), None)
+    return None

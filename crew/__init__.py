@@ -1,0 +1,1 @@
+"""crew: command a crew of robots in plain language; no language model ever moves one."""

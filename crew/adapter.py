@@ -1,0 +1,120 @@
+"""What a robot actor asks of a vendor's adapter. Adapters implement kinds; they never see the simulation's truth."""
+
+import threading
+from collections.abc import Callable, Mapping
+from typing import Any, Protocol
+
+import msgspec
+
+from crew.clock import Clock
+from crew.contracts.skill import SkillArgs
+from crew.contracts.snapshot import FluentValue, ValueReading
+
+
+class Place(msgspec.Struct, frozen=True):
+    """A point that a symbolic argument was resolved to when it was dispatched. World ENU, metres."""
+
+    x: float
+    y: float
+    z: float = 0.0
+    standoff_m: float = 0.0
+
+
+class AdapterConfig(msgspec.Struct, frozen=True, kw_only=True):
+    """What an adapter is built from: the robot's part of the crew file and the world that it moves in."""
+
+    robot: str
+    kind: str
+    connection: str
+    options: dict[str, Any] = {}
+    area: tuple[float, float, float, float]
+    """Operational area x_min, x_max, y_min, y_max: world ENU, metres; the adapter's own geofence."""
+    origin: tuple[float, float, float]
+    """Latitude and longitude in degrees, altitude AMSL in metres of the world's (0, 0, 0)."""
+    obstacles: tuple[tuple[float, float, float], ...] = ()
+    """Known obstacles of the site's map as discs x, y, radius: world ENU, metres."""
+    geofence: bool = True
+
+
+class Reading(msgspec.Struct, frozen=True):
+    """One fluent as the vehicle reported it, stamped with mission time at the source."""
+
+    value: FluentValue
+    stamp_ns: int
+
+
+class Adapter(Protocol):
+    """One robot over one vendor's protocol.
+
+    Every coroutine raises `AdapterError` with the vehicle's own reason; none returns before telemetry shows the
+    effect. `halt` is synchronous, thread-safe, idempotent and never waits: it latches first, then writes.
+    """
+
+    def __init__(self, config: AdapterConfig, clock: Clock) -> None: ...
+
+    async def connect(self) -> None:
+        """Find the vehicle and its telemetry; raise AdapterError naming what is missing."""
+        ...
+
+    async def close(self) -> None: ...
+
+    async def execute(self, skill: str, args: SkillArgs, places: Mapping[str, Place]) -> None:
+        """Carry out a skill to its observed end. `places` holds the resolved place of each symbolic argument."""
+        ...
+
+    async def cancel(self) -> None:
+        """Stop the motion of the running skill and return when telemetry shows the robot nearly still."""
+        ...
+
+    async def safe(self, behaviour: str) -> None:
+        """Carry out `on_stop` or `on_link_loss` behaviour (`hover`, `land`, `stop`): allowed while latched."""
+        ...
+
+    def halt(self) -> None: ...
+
+    def release(self) -> None:
+        """Open the latch: only the robot actor calls it, for a verified reset."""
+        ...
+
+    @property
+    def latched(self) -> bool: ...
+
+    def fluents(self) -> Mapping[str, Reading]:
+        """The kind's fluents as last observed. A fluent that was never observed is absent."""
+        ...
+
+    def values(self) -> Mapping[str, ValueReading]:
+        """Run-time values that the vehicle has published so far (a fix, for example)."""
+        ...
+
+    def health(self) -> str:
+        """Empty if the robot can take a skill, otherwise the reason in a few words."""
+        ...
+
+    def link_counts(self) -> tuple[int, int]:
+        """Datagrams sent and received on the vendor's link, for lockstep."""
+        ...
+
+    def on_traffic(self, callback: Callable[[], None]) -> None:
+        """Call back (on the loop) after received traffic was handled."""
+        ...
+
+
+class StopLatch:
+    """A latch shared by every path into an adapter; one lock orders it with the vehicle's write path."""
+
+    def __init__(self) -> None:
+        self.lock = threading.RLock()
+        self._latched = False
+
+    @property
+    def latched(self) -> bool:
+        return self._latched
+
+    def set(self) -> None:
+        with self.lock:
+            self._latched = True
+
+    def clear(self) -> None:
+        with self.lock:
+            self._latched = False
