@@ -1,0 +1,124 @@
+"""A crew and the site it works on, as data; and the rules that the gate reads."""
+
+from collections.abc import Mapping
+from typing import Any
+
+import msgspec
+
+from crew.contracts.contract import Contract
+from crew.contracts.plan import Zone, digest
+from crew.contracts.skill import Fluent, Kind
+
+
+class RobotSpec(msgspec.Struct, frozen=True, kw_only=True):
+    """One robot of a crew: its kind, its adapter, and either a simulated vehicle or a real connection."""
+
+    name: str
+    kind: str
+    adapter: str
+    aliases: tuple[str, ...] = ()
+    sim: str = ""
+    """The simulated vehicle's name in the scene, or empty for a real robot."""
+    connection: str = ""
+    """The real robot's connection, or empty for a simulated one."""
+    options: Mapping[str, Any] = {}
+
+
+class Location(msgspec.Struct, frozen=True, kw_only=True):
+    """A named place, world ENU, metres."""
+
+    name: str
+    x: float
+    y: float
+    aliases: tuple[str, ...] = ()
+
+
+class NamedZone(msgspec.Struct, frozen=True, kw_only=True):
+    """A named part of the operational area."""
+
+    name: str
+    zone: Zone
+    aliases: tuple[str, ...] = ()
+
+
+class NamedObject(msgspec.Struct, frozen=True, kw_only=True):
+    """An object that robots can handle."""
+
+    name: str
+    aliases: tuple[str, ...] = ()
+
+
+class RuntimeValue(msgspec.Struct, frozen=True, kw_only=True):
+    """A value that exists only at run time, with the words that people use for it."""
+
+    name: str
+    aliases: tuple[str, ...] = ()
+    standoff_m: float = 0.0
+    """How far from it a robot stops."""
+
+
+class SimSpec(msgspec.Struct, frozen=True, kw_only=True):
+    """Which simulated scene the crew lives in."""
+
+    scene: str
+    map: str = "A"
+    seed: int = 0
+    faults: tuple[str, ...] = ()
+
+
+class Crew(msgspec.Struct, frozen=True, kw_only=True):
+    """A crew file, resolved. The zone `operational_area` is always among `zones`."""
+
+    name: str
+    area: Zone
+    origin: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    """Latitude and longitude in degrees, altitude AMSL in metres of the world's (0, 0, 0)."""
+    robots: tuple[RobotSpec, ...] = ()
+    locations: tuple[Location, ...] = ()
+    zones: tuple[NamedZone, ...] = ()
+    objects: tuple[NamedObject, ...] = ()
+    values: tuple[RuntimeValue, ...] = ()
+    contracts: tuple[str, ...] = ()
+    obstacles: tuple[tuple[float, float, float], ...] = ()
+    """Known obstacles as discs x, y, radius: world ENU, metres."""
+    sim: SimSpec | None = None
+    source: str = ""
+
+    def robot(self, name: str) -> RobotSpec | None:
+        return next((r for r in self.robots if r.name == name), None)
+
+    def location(self, name: str) -> Location | None:
+        return next((p for p in self.locations if p.name == name), None)
+
+    def value(self, name: str) -> RuntimeValue | None:
+        return next((v for v in self.values if v.name == name), None)
+
+
+class Rules(msgspec.Struct, frozen=True, kw_only=True, dict=True):
+    """Everything that a decision depends on beside the mission, the world and the call."""
+
+    crew: Crew
+    kinds: Mapping[str, Kind]
+    """By kind's name."""
+    contracts: Mapping[str, Contract]
+
+    def kind_of(self, robot: str) -> Kind | None:
+        spec = self.crew.robot(robot)
+        return None if spec is None else self.kinds.get(spec.kind)
+
+    def fluent_of(self, robot: str, name: str) -> Fluent | None:
+        kind = self.kind_of(robot)
+        return None if kind is None else kind.fluent(name)
+
+    def publishers_of(self, value: str) -> frozenset[str]:
+        """Robots of this crew whose kind publishes the value."""
+        return frozenset(
+            spec.name
+            for spec in self.crew.robots
+            if (kind := self.kinds.get(spec.kind)) and any(p.name == value for p in kind.publishes)
+        )
+
+    def digest(self) -> str:
+        """SHA-256 over crew, kinds and contracts."""
+        kinds = {name: kind.digest for name, kind in self.kinds.items()}
+        return digest({"crew": self.crew, "kinds": kinds, "contracts": dict(self.contracts)})
