@@ -86,6 +86,8 @@ class Skill(msgspec.Struct, frozen=True, kw_only=True, dict=True):
     args: type[SkillArgs]
     forms: tuple[tuple[str, ...], ...] = ((),)
     """Which optional arguments go together: exactly one form must be given, on top of the required arguments."""
+    ranges: tuple[tuple[str, str], ...] = ()
+    """Pairs of arguments of which the first must be smaller than the second."""
     words: tuple[str, ...]
     """Action words of a request that mean this skill."""
     needs: Mapping[str, FluentLiteral] = {}
@@ -95,7 +97,6 @@ class Skill(msgspec.Struct, frozen=True, kw_only=True, dict=True):
     """Leftovers that a failure may leave behind."""
     reports: tuple[str, ...] = ()
     """Published values that a run of this skill renews."""
-    uses_values: bool = False
     timeout_s: float
     cost: float = 1.0
     on_stop: str

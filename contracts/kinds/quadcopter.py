@@ -67,6 +67,7 @@ QUADCOPTER = Kind(
             name="search_target",
             about="Sweep a rectangle with the downward camera and look for the person.",
             args=SearchTarget,
+            ranges=(("x_min", "x_max"), ("y_min", "y_max")),
             words=("search", "scan", "sweep", "survey", "look", "find", "locate", "explore", "comb", "inspect", "check"),
             needs={"airborne": True},
             effects={"swept": True},

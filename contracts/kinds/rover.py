@@ -40,7 +40,6 @@ ROVER = Kind(
             needs={},
             effects={"at": "$place", "moving": False},
             during={"moving": True},
-            uses_values=True,
             timeout_s=180.0,
             cost=3.0,
             on_stop="stop",

@@ -1,0 +1,102 @@
+"""Effects: what a skill is expected to change, whether telemetry has shown it, and the predicted world of a dry run."""
+
+from collections.abc import Mapping
+
+from msgspec.structs import replace
+
+from crew.contracts.guard import Scope, Truth, robot_fluent_is
+from crew.contracts.mission_state import MissionState, StepRecord
+from crew.contracts.plan import Call
+from crew.contracts.site import Rules
+from crew.contracts.skill import FluentLiteral, Skill
+from crew.contracts.snapshot import (
+    FluentValue,
+    Point,
+    RobotState,
+    Snapshot,
+    Stamped,
+    StampedValue,
+    ValueReading,
+)
+
+
+def effect_values(skill: Skill, call: Call) -> dict[str, FluentValue]:
+    """A skill's effects with its arguments filled in. `$place` is the target or the point that the call names."""
+    return {fluent: _resolve(value, call) for fluent, value in skill.effects.items()}
+
+
+def _resolve(value: FluentLiteral, call: Call) -> FluentValue:
+    if not isinstance(value, str) or not value.startswith("$"):
+        return value
+    if value in ("$place", "$point"):
+        target = call.args.get("target", call.args.get("location"))
+        return target if isinstance(target, str) else Point(_number(call, "x"), _number(call, "y"))
+    return call.args[value[1:]]
+
+
+def _number(call: Call, name: str) -> float:
+    value = call.args[name]
+    assert not isinstance(value, str), f"{name} passed the argument check"
+    return float(value)
+
+
+def unseen_effect(record: StepRecord, mission: MissionState, scope: Scope) -> str:
+    """Empty once telemetry newer than the dispatch shows every effect; otherwise the first that it does not show."""
+    call = record.call
+    kind = scope.rules.kind_of(call.robot)
+    skill = None if kind is None else kind.skill(call.skill)
+    state = scope.world.robots.get(call.robot)
+    if skill is None or state is None:
+        return f"{call.robot} was not heard"
+    for fluent, wanted in effect_values(skill, call).items():
+        stamped = state.fluents.get(fluent)
+        if stamped is None or stamped.source_ns <= record.dispatched_ns:
+            return f"{call.robot}.{fluent} has not been observed since the dispatch"
+        verdict = robot_fluent_is(call.robot, fluent, wanted, scope)
+        if verdict.truth is not Truth.HOLDS:
+            return f"{call.robot}.{fluent} is {verdict.observed}"
+    for name in skill.reports:
+        published = scope.world.values.get(name)
+        if published is None or published.source != call.robot or published.received_ns < record.dispatched_ns:
+            return f"{call.robot} has not published {name} since the dispatch"
+    return ""
+
+
+def safe_state_missing(robot: str, reach: Mapping[str, FluentLiteral], scope: Scope) -> str:
+    """Empty if a safe state already holds in fresh telemetry; otherwise the first fluent that does not."""
+    for fluent, wanted in reach.items():
+        verdict = robot_fluent_is(robot, fluent, wanted, scope)
+        if verdict.truth is not Truth.HOLDS:
+            return f"{robot}.{fluent} is {verdict.observed if verdict.truth is Truth.FAILS else verdict.truth}"
+    return ""
+
+
+def assumed_world(world: Snapshot, mission_id: str, rules: Rules, now_ns: int) -> Snapshot:
+    """The world that validation starts from: every robot available, leased and idle; what is known counts as fresh."""
+    robots = {}
+    for spec in rules.crew.robots:
+        known = world.robots.get(spec.name) or RobotState(name=spec.name)
+        robots[spec.name] = replace(
+            known,
+            kind_digest=rules.kinds[spec.kind].digest,
+            unavailable="",
+            running="",
+            lease=mission_id,
+            fluents={name: Stamped(s.value, now_ns, now_ns) for name, s in known.fluents.items()},
+        )
+    return replace(world, robots=robots)
+
+
+def predict(world: Snapshot, call: Call, skill: Skill, rules: Rules, now_ns: int) -> Snapshot:
+    """The world after a successful call, with the values that it publishes assumed good."""
+    state = world.robots[call.robot]
+    fluents = dict(state.fluents)
+    fluents.update({name: Stamped(v, now_ns, now_ns) for name, v in effect_values(skill, call).items()})
+    values = dict(world.values)
+    area = rules.crew.area
+    centre = Point((area.x_min + area.x_max) / 2, (area.y_min + area.y_max) / 2)
+    for name in skill.reports:
+        reading = ValueReading(name=name, status="ok", position=centre, stamp_ns=now_ns)
+        values[name] = StampedValue(reading, call.robot, now_ns)
+    robots = {**world.robots, call.robot: replace(state, fluents=fluents)}
+    return replace(world, robots=robots, values=values)

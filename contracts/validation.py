@@ -1,0 +1,109 @@
+"""Whole-plan validation: arguments, matching, containment, then the same `authorize` along the plan over predicted state."""
+
+import msgspec
+from msgspec.structs import replace
+
+from crew.contracts.arguments import check_call
+from crew.contracts.codes import Code
+from crew.contracts.decision import Authorizer
+from crew.contracts.effect import assumed_world, predict
+from crew.contracts.matching import match
+from crew.contracts.mission_state import MissionState, Phase, Purpose, Question, StepPhase, StepRecord
+from crew.contracts.plan import Instance, Plan, digest
+from crew.contracts.refusal import Refusal
+from crew.contracts.site import Rules
+from crew.contracts.snapshot import Snapshot
+
+
+class Validation(msgspec.Struct, frozen=True, kw_only=True):
+    """The verdict on a plan: an instance, perhaps with a question to a person, or a refusal."""
+
+    instance: Instance | None = None
+    question: Question | None = None
+    refusal: Refusal | None = None
+
+
+def validate(
+    plan: Plan, mission: MissionState, world: Snapshot, rules: Rules, now_ns: int, authorizer: Authorizer
+) -> Validation:
+    """Judge a proposal as a whole before anything moves. Availability and values of the mission itself are assumed."""
+    for index, call in enumerate(plan.steps):
+        refusal = check_call(call, rules)
+        if refusal is not None:
+            return Validation(refusal=_at(refusal, index))
+    instance = match(plan, rules)
+    if isinstance(instance, Refusal):
+        return Validation(refusal=instance)
+    refusal = _dry_run(instance, mission, world, rules, now_ns, authorizer)
+    if refusal is not None and refusal.code is Code.UNREAD_WORDS:
+        told = replace(mission, confirmed=True)
+        refusal = _dry_run(instance, told, world, rules, now_ns, authorizer)
+        if refusal is None:
+            return Validation(instance=instance, question=_question(mission, plan, instance, rules))
+    if refusal is not None:
+        return Validation(refusal=refusal)
+    if any(_wants_approval(s.step, instance, rules) for s in instance.steps):
+        return Validation(instance=instance, question=_question(mission, plan, instance, rules))
+    return Validation(instance=instance)
+
+
+def pending_steps(instance: Instance) -> dict[str, StepRecord]:
+    """A fresh record for each step of an instance, in the plan's order."""
+    return {s.step: StepRecord(call=s.call) for s in instance.steps}
+
+
+def _dry_run(
+    instance: Instance, mission: MissionState, world: Snapshot, rules: Rules, now_ns: int, authorizer: Authorizer
+) -> Refusal | None:
+    """The gate's own decisions along the plan; approvals are asked for afterwards."""
+    state = replace(
+        mission,
+        phase=Phase.EXECUTING,
+        instance=instance,
+        steps=pending_steps(instance),
+        started_ns=now_ns,
+        approvals=tuple(s.step for s in instance.steps),
+    )
+    predicted = assumed_world(world, mission.id, rules, now_ns)
+    for index, step in enumerate(instance.steps):
+        decision = authorizer.authorize(step.call, state, predicted, rules, now_ns, Purpose.EXECUTE)
+        if decision.refusal is not None and decision.refusal.code is not Code.STATE_STALE:
+            return _at(decision.refusal, index)
+        kind = rules.kind_of(step.call.robot)
+        skill = None if kind is None else kind.skill(step.call.skill)
+        assert skill is not None, f"{step.call} passed the capability check"
+        predicted = predict(predicted, step.call, skill, rules, now_ns)
+        done = StepRecord(
+            call=step.call,
+            phase=StepPhase.SUCCEEDED,
+            sequence=index + 1,
+            dispatched_ns=now_ns,
+            places=decision.places,
+        )
+        state = replace(state, steps={**state.steps, step.step: done})
+    return None
+
+
+def _at(refusal: Refusal, index: int) -> Refusal:
+    if refusal.field.startswith(("steps[", "slot")):
+        return refusal
+    field = f"steps[{index}].{refusal.field}" if refusal.field else f"steps[{index}]"
+    return replace(refusal, field=field)
+
+
+def _wants_approval(step: str, instance: Instance, rules: Rules) -> bool:
+    declared = rules.contracts[instance.contract].step(step)
+    return declared is not None and declared.approval
+
+
+def _question(mission: MissionState, plan: Plan, instance: Instance, rules: Rules) -> Question:
+    unread = tuple(u.word for u in mission.reading.unread)
+    approves = tuple(s.step for s in instance.steps if _wants_approval(s.step, instance, rules))
+    calls = "; ".join(str(s.call) for s in instance.steps)
+    parts = [f"I would do: {calls}."]
+    if unread:
+        parts.insert(0, f"I did not understand {', '.join(repr(w) for w in unread)} and would leave it out.")
+    if approves:
+        parts.append(f"Your approval is needed for: {', '.join(approves)}.")
+    token = digest((mission.id, mission.reading, plan))[:16]
+    return Question(text=" ".join([*parts, "Shall I?"]), token=token, approves=approves, unread=unread)
