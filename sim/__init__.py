@@ -1,0 +1,1 @@
+"""Robots without hardware: worlds, vehicles and faults."""

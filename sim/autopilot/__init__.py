@@ -1,0 +1,1 @@
+"""Autopilots: the vendor-facing side of a simulated vehicle. MAVLink stays inside this package."""

@@ -1,0 +1,1 @@
+"""Bodies and inner loops: what a vehicle does by itself, whatever autopilot protocol it speaks."""
