@@ -87,8 +87,8 @@ class SimClock:
         self._order = itertools.count()
         self._sleepers: list[tuple[int, int, asyncio.Future[None]]] = []
         self._busy = 0
-        self._idle = asyncio.Event()
-        self._idle.set()
+        self.idle_event = asyncio.Event()
+        """Set whenever the last work in flight ends."""
 
     def now_ns(self) -> int:
         return self._now_ns
@@ -107,17 +107,17 @@ class SimClock:
     @contextmanager
     def busy(self) -> Iterator[None]:
         self._busy += 1
-        self._idle.clear()
         try:
             yield
         finally:
             self._busy -= 1
             if not self._busy:
-                self._idle.set()
+                self.idle_event.set()
 
-    async def idle(self) -> None:
-        """Return once no work is in flight here: what a lockstep participant awaits before it acknowledges a slice."""
-        await self._idle.wait()
+    @property
+    def is_busy(self) -> bool:
+        """Whether work is in flight here: a lockstep participant withholds its acknowledgement meanwhile."""
+        return self._busy > 0
 
     def advance(self, now_ns: int) -> None:
         """Move to `now_ns` (never backwards) and wake every sleeper whose deadline has come."""

@@ -1,0 +1,89 @@
+"""A participant of the simulation's clock: it advances this process's mission time and acknowledges each slice.
+
+The acknowledgement is withheld while work is in flight here: a busy clock, or datagrams still on the vendor's link.
+"""
+
+import asyncio
+from collections.abc import Callable
+
+from crew.bus.port import Bus, Qos
+from crew.clock import SimClock
+from crew.keys import Keys
+from crew.mailbox import KeepLatest, Letter, letters
+from crew.messages import ClockAck, ClockTick
+
+HOLD_EVERY_S = 0.25
+"""Wall time between two signs of life while a slice is withheld; the simulation drops a participant silent for 1 s."""
+TURNS = 3
+"""Turns of the loop that timers and mailboxes get before a slice counts as done."""
+
+
+class Participant:
+    """Run `run()` for as long as the actor lives. `counts` gives datagrams sent and received on the vendor's link."""
+
+    def __init__(
+        self,
+        bus: Bus,
+        keys: Keys,
+        name: str,
+        clock: SimClock,
+        *,
+        counts: Callable[[], tuple[int, int]] = lambda: (0, 0),
+        idle: Callable[[], bool] = lambda: True,
+    ) -> None:
+        self._clock = clock
+        self._name = name
+        self._counts = counts
+        self._idle = idle
+        self._traffic = asyncio.Event()
+        self._ticks: KeepLatest[Letter[ClockTick]] = KeepLatest(letters(ClockTick))
+        self._subscription = bus.subscribe(keys.clock, self._ticks)
+        self._acks = bus.publisher(keys.clock_ack(name), qos=Qos.EVENT)
+        self.slices = 0
+
+    def notice_traffic(self) -> None:
+        """Told by the adapter that datagrams were handled."""
+        self._traffic.set()
+
+    async def run(self) -> None:
+        """Join, then follow the clock until cancelled."""
+        await self._say_until_first_tick()
+        async for letter in self._ticks:
+            await self._take_slice(letter.message)
+
+    async def _say_until_first_tick(self) -> None:
+        while True:
+            self._ack(-1)
+            try:
+                async with asyncio.timeout(HOLD_EVERY_S):
+                    await self._ticks.changed()
+                    return
+            except TimeoutError:
+                continue
+
+    async def _take_slice(self, tick: ClockTick) -> None:
+        expected = tick.datagrams.get(self._name, 0)
+        await self._hold(tick.slice, lambda: self._counts()[1] >= expected, self._traffic)
+        self._clock.advance(tick.now_ns)
+        for _ in range(TURNS):
+            await asyncio.sleep(0)
+        while self._clock.is_busy:
+            await self._hold(tick.slice, lambda: not self._clock.is_busy, self._clock.idle_event)
+            await asyncio.sleep(0)
+        self.slices += 1
+        self._ack(tick.slice)
+
+    async def _hold(self, number: int, done: Callable[[], bool], event: asyncio.Event) -> None:
+        """Wait until `done`, showing a sign of life now and then."""
+        while not done():
+            event.clear()
+            try:
+                async with asyncio.timeout(HOLD_EVERY_S):
+                    await event.wait()
+            except TimeoutError:
+                self._ack(number, holding=True)
+
+    def _ack(self, number: int, *, holding: bool = False) -> None:
+        sent = self._counts()[0]
+        idle = self._idle() and not holding
+        self._acks.put(ClockAck(name=self._name, slice=number, datagrams=sent, holding=holding, idle=idle))

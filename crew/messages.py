@@ -1,0 +1,336 @@
+"""Everything that travels on the bus, as versioned msgspec structs. Times are mission time unless a name says wall."""
+
+from collections.abc import Mapping
+from typing import ClassVar
+
+from crew.contracts.plan import ArgValue, Plan
+from crew.contracts.refusal import Refusal
+from crew.contracts.snapshot import FluentValue, Point, ValueReading
+from crew.wire import Message
+
+# --- robots
+
+
+class RobotCard(Message, frozen=True, kw_only=True):
+    """Who a robot is: its kind, the digest of the kind's declaration, and a random id of this boot."""
+
+    schema: ClassVar[str] = "crew.robot_card"
+    version: ClassVar[int] = 1
+    robot: str
+    kind: str
+    kind_digest: str
+    boot_id: str
+    adapter: str
+    simulated: bool
+
+
+class RobotState(Message, frozen=True, kw_only=True):
+    """A robot's state, published at a fixed rate. `stamps_ns` holds each fluent's time at its source."""
+
+    schema: ClassVar[str] = "crew.robot_state"
+    version: ClassVar[int] = 1
+    robot: str
+    boot_id: str
+    at_ns: int
+    unavailable: str = ""
+    stopped: bool = False
+    still: bool = False
+    """Telemetry shows the robot standing still (or landed)."""
+    running: str = ""
+    """`<mission>/<sequence>` of the dispatch that it carries out."""
+    epoch: int = 0
+    """The newest orchestrator's epoch that it has heard."""
+    fluents: Mapping[str, FluentValue] = {}
+    stamps_ns: Mapping[str, int] = {}
+
+
+class RobotEvent(Message, frozen=True, kw_only=True):
+    """Something that happened to a dispatch, or to the robot itself (then `mission` is empty)."""
+
+    schema: ClassVar[str] = "crew.robot_event"
+    version: ClassVar[int] = 1
+    robot: str
+    boot_id: str
+    at_ns: int
+    what: str
+    """`accepted`, `refused`, `succeeded`, `failed`, `cancelled`; or `stopped`, `released`, `orchestrator_lost`, `ready`."""
+    mission: str = ""
+    sequence: int = 0
+    code: str = ""
+    detail: str = ""
+
+
+class RobotValue(Message, frozen=True, kw_only=True):
+    """A run-time value that a robot publishes."""
+
+    schema: ClassVar[str] = "crew.robot_value"
+    version: ClassVar[int] = 1
+    robot: str
+    boot_id: str
+    reading: ValueReading
+
+
+class Dispatch(Message, frozen=True, kw_only=True):
+    """One authorised skill. The orchestrator alone may put it on an actuation key."""
+
+    schema: ClassVar[str] = "crew.dispatch"
+    version: ClassVar[int] = 1
+    mission: str
+    step: str
+    purpose: str
+    sequence: int
+    robot: str
+    skill: str
+    args: Mapping[str, ArgValue] = {}
+    places: Mapping[str, Point] = {}
+    epoch: int
+    lease: str
+    boot_id: str
+    issued_ns: int
+    expires_ns: int
+    args_digest: str
+    plan_digest: str
+    contract_digest: str
+    request_id: str = ""
+    approval: str = ""
+    permit: bytes = b""
+    """The orchestrator's signature over the rest; verified by the robot once the message lock is in place."""
+
+
+class CancelSkill(Message, frozen=True, kw_only=True):
+    """End a running dispatch. It stops motion and never starts any."""
+
+    schema: ClassVar[str] = "crew.cancel_skill"
+    version: ClassVar[int] = 1
+    mission: str
+    sequence: int
+    robot: str
+    epoch: int
+    boot_id: str
+    permit: bytes = b""
+
+
+# --- stop and reset
+
+
+class Stop(Message, frozen=True, kw_only=True):
+    """Stop and latch. Robots stop for any sample on the stop key, readable or not."""
+
+    schema: ClassVar[str] = "crew.stop"
+    version: ClassVar[int] = 1
+    by: str
+    reason: str = ""
+
+
+class Reset(Message, frozen=True, kw_only=True):
+    """Release the latch of the named robots: signed by the operator, bound to epoch, targets and a nonce."""
+
+    schema: ClassVar[str] = "crew.reset"
+    version: ClassVar[int] = 1
+    by: str
+    epoch: int
+    targets: tuple[str, ...]
+    nonce: str
+    signature: bytes
+
+    def signed_part(self, crew: str) -> bytes:
+        """What the signature covers."""
+        return "\n".join(("crew.reset/1", crew, self.by, str(self.epoch), ",".join(self.targets), self.nonce)).encode()
+
+
+# --- orchestrator, planner, gateway
+
+
+class Heartbeat(Message, frozen=True, kw_only=True):
+    """Proof that the orchestrator's loop turns and its journal commits. Sent on wall time."""
+
+    schema: ClassVar[str] = "crew.heartbeat"
+    version: ClassVar[int] = 1
+    name: str
+    epoch: int
+    count: int
+
+
+class Intake(Message, frozen=True, kw_only=True):
+    """A request as the gateway read it, with the id that its mission shall have."""
+
+    schema: ClassVar[str] = "crew.intake"
+    version: ClassVar[int] = 1
+    mission: str
+    request_id: str = ""
+    text: str
+
+
+class PlannerAsk(Message, frozen=True, kw_only=True):
+    """Ask for a plan. State is typed and whitelisted: no text from robots reaches a planner."""
+
+    schema: ClassVar[str] = "crew.planner_ask"
+    version: ClassVar[int] = 1
+    mission: str
+    attempt: int
+    request: str
+    feedback: Refusal | None = None
+    airborne: Mapping[str, bool] = {}
+    values: Mapping[str, str] = {}
+    requester_near: bool | None = None
+
+
+class PlannerProposal(Message, frozen=True, kw_only=True):
+    """A plan, or the reason why there is none."""
+
+    schema: ClassVar[str] = "crew.planner_proposal"
+    version: ClassVar[int] = 1
+    mission: str
+    attempt: int
+    planner: str
+    plan: Plan | None = None
+    reason: str = ""
+    unreadable: bool = False
+    """The planner answered, but not with a plan: this spends the replan."""
+
+
+class Answer(Message, frozen=True, kw_only=True):
+    """A person's answer to a mission's question; `token` comes from the question."""
+
+    schema: ClassVar[str] = "crew.answer"
+    version: ClassVar[int] = 1
+    token: str
+    yes: bool
+    by: str = ""
+
+
+class CancelMission(Message, frozen=True, kw_only=True):
+    """End a mission; its robots reach their safe states."""
+
+    schema: ClassVar[str] = "crew.cancel_mission"
+    version: ClassVar[int] = 1
+    by: str = ""
+
+
+class PlannedStep(Message, frozen=True, kw_only=True):
+    """One step of the accepted plan, with where each argument came from."""
+
+    schema: ClassVar[str] = "crew.planned_step"
+    version: ClassVar[int] = 1
+    step: str
+    robot: str
+    skill: str
+    args: Mapping[str, ArgValue] = {}
+    sources: Mapping[str, str] = {}
+    outcome: str = "pending"
+    code: str | None = None
+
+
+class MissionEvent(Message, frozen=True, kw_only=True):
+    """What people follow a mission by: published as JSON on its event key."""
+
+    schema: ClassVar[str] = "crew.mission_event"
+    version: ClassVar[int] = 1
+    mission: str
+    request_id: str = ""
+    number: int
+    at_s: float
+    phase: str
+    what: str
+    """`phase`, `plan`, `decision`, `dispatch`, `step`, `value`, `question`, `end`."""
+    text: str
+    step: str = ""
+    robot: str = ""
+    code: str | None = None
+    question: str | None = None
+    token: str | None = None
+    contract: str | None = None
+    steps: tuple[PlannedStep, ...] | None = None
+    outcome: str | None = None
+    final: bool = False
+
+
+class RobotStatus(Message, frozen=True, kw_only=True):
+    """One robot in the crew's status."""
+
+    schema: ClassVar[str] = "crew.robot_status"
+    version: ClassVar[int] = 1
+    robot: str
+    kind: str
+    unavailable: str
+    stopped: bool
+    still: bool
+    age_s: float | None
+    running: str
+    lease: str
+    fluents: Mapping[str, FluentValue] = {}
+
+
+class MissionStatus(Message, frozen=True, kw_only=True):
+    """One mission in the crew's status."""
+
+    schema: ClassVar[str] = "crew.mission_status"
+    version: ClassVar[int] = 1
+    mission: str
+    request: str
+    phase: str
+    contract: str
+    message: str
+    question: str = ""
+    token: str = ""
+
+
+class CrewStatus(Message, frozen=True, kw_only=True):
+    """The answer to a query on the status key."""
+
+    schema: ClassVar[str] = "crew.status"
+    version: ClassVar[int] = 1
+    crew: str
+    run: str
+    epoch: int
+    at_ns: int
+    stopped: bool
+    robots: tuple[RobotStatus, ...]
+    missions: tuple[MissionStatus, ...]
+    dropped: Mapping[str, int] = {}
+    """Messages that were refused as unreadable, by reason."""
+
+
+# --- simulation
+
+
+class ClockTick(Message, frozen=True, kw_only=True):
+    """Mission time in simulation. `datagrams` is how many the simulation has sent to each robot's adapter."""
+
+    schema: ClassVar[str] = "crew.clock_tick"
+    version: ClassVar[int] = 1
+    slice: int
+    now_ns: int
+    datagrams: Mapping[str, int] = {}
+
+
+class ClockAck(Message, frozen=True, kw_only=True):
+    """A participant is done with a slice, or is holding it while work of its own is in flight."""
+
+    schema: ClassVar[str] = "crew.clock_ack"
+    version: ClassVar[int] = 1
+    name: str
+    slice: int
+    datagrams: int = 0
+    holding: bool = False
+    idle: bool = False
+    """Nothing is going on here: the simulation need not hurry."""
+
+
+class SimTruth(Message, frozen=True, kw_only=True):
+    """The simulation's truth, for the recorder and the study only. Poses are x, y, z, yaw: ENU, metres, radians."""
+
+    schema: ClassVar[str] = "crew.sim_truth"
+    version: ClassVar[int] = 1
+    at_ns: int
+    poses: Mapping[str, tuple[float, float, float, float]]
+    targets: Mapping[str, tuple[float, float, float]]
+
+
+class SimFault(Message, frozen=True, kw_only=True):
+    """Switch a fault of the simulation on or off."""
+
+    schema: ClassVar[str] = "crew.sim_fault"
+    version: ClassVar[int] = 1
+    name: str
+    on: bool = True
