@@ -1,0 +1,283 @@
+"""The adapter that a robot actor owns: one vehicle, one skill at a time, a stop that needs no event loop."""
+
+import asyncio
+from collections.abc import Callable, Mapping
+from typing import Protocol, cast
+
+from crew.adapter import AdapterConfig, Place, Reading, StopLatch
+from crew.adapters.mavlink.braking import brake
+from crew.adapters.mavlink.flavours.flavour import FlightFlavour
+from crew.adapters.mavlink.link import LinkCounts
+from crew.adapters.mavlink.options import QuadcopterOptions, RoverOptions, VehicleOptions, read_options
+from crew.adapters.mavlink.quadcopter import QuadcopterSkills
+from crew.adapters.mavlink.rover import RoverSkills
+from crew.adapters.mavlink.run import HANDS_OFF, Run
+from crew.adapters.mavlink.stopping import StopRepeater
+from crew.adapters.mavlink.vehicle import Vehicle
+from crew.adapters.mavlink.writer import Permit
+from crew.clock import Clock
+from crew.contracts.skill import SkillArgs
+from crew.contracts.snapshot import ValueReading
+from crew.errors import AdapterError, Latched, nearest
+
+OPTIONS: dict[str, type[VehicleOptions]] = {"quadcopter": QuadcopterOptions, "rover": RoverOptions}
+SAFE_BEHAVIOURS = ("hover_then_land", "land", "hover", "stop")
+
+
+class Skills(Protocol):
+    """One kind's skills over one vehicle."""
+
+    still_mps: float
+    unconditional: frozenset[str]
+    """Skills that need no healthy vehicle: they make it safe."""
+
+    @property
+    def grounded(self) -> bool: ...
+
+    def fluents(self) -> Mapping[str, Reading]: ...
+
+    def values(self) -> Mapping[str, ValueReading]: ...
+
+    async def perform(self, args: SkillArgs, places: Mapping[str, Place], run: Run) -> None: ...
+
+    async def come_down(self, run: Run) -> None:
+        """End on the ground; a vehicle that is always there does nothing."""
+        ...
+
+
+class MavlinkAdapter:
+    """Implements `crew.adapter.Adapter` for every flavour in the registry."""
+
+    def __init__(self, config: AdapterConfig, clock: Clock) -> None:
+        if config.kind not in OPTIONS:
+            raise AdapterError(f"mavlink: no kind {config.kind!r}{nearest(config.kind, OPTIONS)}", code="bad_option")
+        self._config = config
+        self._clock = clock
+        self._options = read_options(config.robot, dict(config.options), OPTIONS[config.kind])
+        self._latch = StopLatch()
+        self._counts = LinkCounts()
+        self._callbacks: list[Callable[[], None]] = []
+        self._vehicle = self._new_vehicle()
+        self._skills: Skills | None = None
+        self._run: Run | None = None
+        self._safe: Permit | None = None
+        self._braking: asyncio.Task[None] | None = None
+        self._brake_fault = ""
+        self._halted_ns = 0
+        self._repeater = StopRepeater(self._send_stop, self._still_since_halt, self._latch.lock)
+
+    async def connect(self) -> None:
+        """Find the vehicle and its telemetry; raise AdapterError naming what is missing. Again: reconnect."""
+        await self._disconnect()
+        self._vehicle = self._new_vehicle()
+        try:
+            await self._vehicle.connect()
+        except BaseException:
+            await self._vehicle.close()
+            raise
+        self._skills = self._new_skills()
+        self._brake_fault = ""
+
+    async def close(self) -> None:
+        """End a running skill, stopping the vehicle, and let the link go."""
+        if self._run is not None:
+            self._end(self._run.permit, AdapterError(f"{self._config.robot}: adapter closed", code="cancelled"))
+            self._send_stop()
+        await self._disconnect()
+
+    async def execute(self, skill: str, args: SkillArgs, places: Mapping[str, Place]) -> None:
+        """Carry out a skill to its observed end; raises Latched or AdapterError, and leaves no motion behind."""
+        run = self._begin(skill)
+        try:
+            await self._settle_brake()
+            self._require_fit(skill, run)
+            await self._ready().perform(args, places, run)
+        except AdapterError as error:
+            if error.code not in HANDS_OFF:
+                self._abandon(run, error)
+            raise
+        except BaseException:
+            self._abandon(run, AdapterError(f"{self._config.robot}: {skill} cancelled", code="cancelled"))
+            raise
+        finally:
+            self._run = None
+
+    async def cancel(self) -> None:
+        """End the running skill and brake; returns when nearly still. Raises AdapterError `still_moving`."""
+        if self._run is not None:
+            self._end(self._run.permit, AdapterError(f"{self._config.robot}: skill cancelled", code="cancelled"))
+        await self._brake(self._run_for(Permit(safe=True)))
+
+    async def safe(self, behaviour: str) -> None:
+        """`hover` and `stop` brake, `land` lands, `hover_then_land` brakes, waits and lands. Allowed while latched."""
+        if behaviour not in SAFE_BEHAVIOURS:
+            raise AdapterError(
+                f"no safe behaviour {behaviour!r}{nearest(behaviour, SAFE_BEHAVIOURS)}", code="bad_argument"
+            )
+        run = self._run_for(self._begin_safe())
+        try:
+            if behaviour != "land":
+                await self._brake(run)
+            if behaviour == "hover_then_land":
+                await run.hold(self._hover_s(), over=self._battery_low)
+            self._repeater.finish()
+            if behaviour in ("land", "hover_then_land"):
+                await self._ready().come_down(run)
+        finally:
+            self._end_safe(run.permit)
+
+    def halt(self) -> None:
+        """Latch, then stop: from any thread, at once, without the event loop. Again: nothing new happens."""
+        with self._latch.lock:
+            if self._latch.latched:
+                return
+            self._latch.set()
+            self._halted_ns = self._clock.now_ns()
+            stopped = Latched(f"{self._config.robot}: stopped")
+            for permit in (self._run.permit if self._run else None, self._safe):
+                self._end(permit, stopped)
+            self._send_stop()
+            self._repeater.start()
+
+    def release(self) -> None:
+        """Open the latch."""
+        with self._latch.lock:
+            self._repeater.finish()
+            self._latch.clear()
+
+    @property
+    def latched(self) -> bool:
+        return self._latch.latched
+
+    def fluents(self) -> Mapping[str, Reading]:
+        """The kind's fluents as last observed; empty before the vehicle was found."""
+        return self._skills.fluents() if self._skills else {}
+
+    def values(self) -> Mapping[str, ValueReading]:
+        """What was published so far."""
+        return self._skills.values() if self._skills else {}
+
+    def health(self) -> str:
+        """Empty if the robot can take a skill, otherwise the reason in a few words."""
+        return (self._vehicle.fault() or self._brake_fault) if self._skills else "not connected"
+
+    def link_counts(self) -> tuple[int, int]:
+        """Datagrams sent and received."""
+        return self._counts.sent, self._counts.received
+
+    def on_traffic(self, callback: Callable[[], None]) -> None:
+        """Call back, on the loop, after received traffic was handled and the tasks that it woke had their turns."""
+        self._callbacks.append(callback)
+
+    # Connecting.
+
+    def _new_vehicle(self) -> Vehicle:
+        vehicle = Vehicle(self._config, self._options, self._clock, self._latch, self._counts)
+        vehicle.link.on_settled(self._settled)
+        return vehicle
+
+    def _new_skills(self) -> Skills:
+        flavour, options = self._vehicle.flavour, self._options
+        if isinstance(options, QuadcopterOptions):
+            return QuadcopterSkills(self._vehicle, cast(FlightFlavour, flavour), options)
+        return RoverSkills(self._vehicle, flavour, cast(RoverOptions, options))
+
+    async def _disconnect(self) -> None:
+        self._skills = None
+        self._repeater.finish()
+        if self._braking is not None:
+            self._braking.cancel()
+            await asyncio.gather(self._braking, return_exceptions=True)
+            self._braking = None
+        await self._vehicle.close()
+
+    def _settled(self) -> None:
+        for callback in self._callbacks:
+            callback()
+
+    def _ready(self) -> Skills:
+        if self._skills is None:
+            raise AdapterError(f"{self._config.robot}: not connected", code="not_connected")
+        return self._skills
+
+    # Runs.
+
+    def _run_for(self, permit: Permit) -> Run:
+        return Run(self._vehicle, permit, self._options.stall_s)
+
+    def _begin(self, skill: str) -> Run:
+        with self._latch.lock:
+            if self._latch.latched:
+                raise Latched(f"{self._config.robot}: {skill} not started: the stop is latched; reset the robot first")
+            if self._run is not None or self._safe is not None:
+                raise AdapterError(f"{self._config.robot}: {skill} not started: busy", code="robot_busy")
+            self._run = self._run_for(Permit())
+            return self._run
+
+    def _begin_safe(self) -> Permit:
+        """A permit that ends whatever ran before."""
+        with self._latch.lock:
+            superseded = AdapterError(f"{self._config.robot}: a safe behaviour took over", code="cancelled")
+            for permit in (self._run.permit if self._run else None, self._safe):
+                self._end(permit, superseded)
+            self._safe = Permit(safe=True)
+            return self._safe
+
+    def _end_safe(self, permit: Permit) -> None:
+        with self._latch.lock:
+            if self._safe is permit:
+                self._safe = None
+
+    def _end(self, permit: Permit | None, error: AdapterError) -> None:
+        with self._latch.lock:
+            if permit is not None:
+                permit.revoke(error)
+
+    def _require_fit(self, skill: str, run: Run) -> None:
+        run.check()
+        if skill in self._ready().unconditional:
+            return
+        if fault := self._vehicle.fault():
+            raise AdapterError(f"{self._config.robot}: {skill} not started: {fault}", code="robot_unavailable")
+
+    # Stopping.
+
+    def _abandon(self, run: Run, error: AdapterError) -> None:
+        """After a failure: stop what was set in motion, at once, and see to it that it stops."""
+        self._end(run.permit, error)
+        if not run.moved or self._latch.latched or self._safe is not None:
+            return
+        self._send_stop()
+        self._braking = asyncio.get_running_loop().create_task(self._brake_after_failure())
+
+    async def _brake_after_failure(self) -> None:
+        try:
+            await self._brake(self._run_for(Permit(safe=True)))
+            self._brake_fault = ""
+        except AdapterError as error:
+            self._brake_fault = f"did not confirm its stop: {error}"
+
+    async def _settle_brake(self) -> None:
+        """Wait for the braking that an earlier failure left."""
+        if self._braking is not None:
+            await asyncio.wait({self._braking})
+            self._braking = None
+
+    async def _brake(self, run: Run) -> None:
+        if not self._ready().grounded:
+            await brake(run, self._ready().still_mps)
+
+    def _send_stop(self) -> None:
+        self._vehicle.send_stop()
+
+    def _still_since_halt(self) -> bool:
+        motion = self._vehicle.telemetry.motion
+        still_mps = self._skills.still_mps if self._skills else 0.0
+        return motion is not None and motion.stamp_ns > self._halted_ns and motion.value.speed_mps < still_mps
+
+    def _hover_s(self) -> float:
+        return self._options.hover_s if isinstance(self._options, QuadcopterOptions) else 0.0
+
+    def _battery_low(self) -> bool:
+        battery = self._vehicle.telemetry.battery_percent
+        return battery is not None and battery.value < self._options.min_battery_percent

@@ -1,0 +1,199 @@
+"""The UDP link to one vehicle: an unblocked socket, a parser for each peer, counters. Decides nothing about motion."""
+
+import asyncio
+import errno
+import socket
+import struct
+from collections.abc import Callable
+from contextlib import AbstractContextManager
+from typing import Any
+
+import msgspec
+from pymavlink.dialects.v20 import common as mavlink
+
+from crew.adapter import StopLatch
+from crew.adapters.mavlink.endpoint import Address, Endpoint
+from crew.adapters.mavlink.writer import Writer
+from crew.clock import Clock
+from crew.errors import AdapterError
+
+MAX_PEERS = 8
+MAX_BATCH = 256
+"""Datagrams read before the loop gets its turn again."""
+SETTLING_TURNS = 6
+"""Turns of the loop that a task woken by a message is given before the traffic counts as handled."""
+
+
+class LinkCounts(msgspec.Struct):
+    """Datagrams on the link; the last four are kinds of `received` or of sends that did not happen."""
+
+    sent: int = 0
+    received: int = 0
+    ignored: int = 0
+    """Valid, but from another system or another address."""
+    malformed: int = 0
+    unsent: int = 0
+    """The socket refused them: link down or buffer full."""
+
+
+class UdpLink:
+    """Datagrams to and from the vehicle that `wanted` recognises by its first heartbeat.
+
+    `handle` gets every message of that vehicle, on the loop. Everything else is ignored and counted.
+    """
+
+    def __init__(
+        self,
+        endpoint: Endpoint,
+        clock: Clock,
+        latch: StopLatch,
+        wanted: Callable[[Any], bool],
+        handle: Callable[[Any], None],
+        counts: LinkCounts,
+    ) -> None:
+        self._endpoint = endpoint
+        self._clock = clock
+        self._wanted = wanted
+        self._handle = handle
+        self._socket: socket.socket | None = None
+        self._loop: asyncio.AbstractEventLoop | None = None
+        self._parsers: dict[Address, Any] = {}
+        self._destination: Address | None = None if endpoint.listen else endpoint.address
+        self._system: int | None = None
+        self._vehicle: Address | None = None
+        self._hold: AbstractContextManager[None] | None = None
+        self._turns = 0
+        self._on_settled: list[Callable[[], None]] = []
+        self.counts = counts
+        self.writer = Writer(latch, self._transmit)
+
+    @property
+    def reachable(self) -> bool:
+        """Whether there is an address to send to."""
+        return self._socket is not None and self._destination is not None
+
+    def on_settled(self, callback: Callable[[], None]) -> None:
+        """Call back once a batch was handled and the tasks that it woke have had their turns."""
+        self._on_settled.append(callback)
+
+    def open(self) -> None:
+        """Bind and start reading. Raises AdapterError `port_in_use` naming the port."""
+        self._loop = asyncio.get_running_loop()
+        sock = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+        sock.setblocking(False)
+        try:
+            if self._endpoint.listen:
+                sock.bind(self._endpoint.address)
+        except OSError as error:
+            sock.close()
+            raise _bind_error(self._endpoint, error) from error
+        self._socket = sock
+        self._loop.add_reader(sock.fileno(), self._readable)
+
+    def close(self) -> None:
+        if self._socket is not None and self._loop is not None:
+            self._loop.remove_reader(self._socket.fileno())
+            sock, self._socket = self._socket, None
+            sock.close()
+        self._release()
+
+    def _transmit(self, data: bytes) -> None:
+        sock = self._socket
+        if sock is None or self._destination is None:
+            self.counts.unsent += 1
+            return
+        try:
+            sock.sendto(data, self._destination)
+        except OSError:
+            self.counts.unsent += 1
+        else:
+            self.counts.sent += 1
+
+    def _readable(self) -> None:
+        for _ in range(MAX_BATCH):
+            if self._socket is None:
+                return
+            try:
+                data, address = self._socket.recvfrom(65536)
+            except BlockingIOError:
+                break
+            except OSError:
+                continue
+            self.counts.received += 1
+            self._take(data, address)
+        self._settle()
+
+    def _take(self, data: bytes, address: Address) -> None:
+        parser = self._parser(address)
+        if parser is None:
+            self.counts.ignored += 1
+            return
+        messages = parse_datagram(parser, data)
+        if messages is None:
+            self.counts.malformed += 1
+            return
+        mine = [message for message in messages if self._is_mine(message, address)]
+        if not mine:
+            self.counts.ignored += 1
+        for message in mine:
+            self._handle(message)
+
+    def _parser(self, address: Address) -> Any:
+        if address not in self._parsers:
+            if len(self._parsers) >= MAX_PEERS:
+                return None
+            parser = mavlink.MAVLink(None)
+            parser.robust_parsing = True
+            self._parsers[address] = parser
+        return self._parsers[address]
+
+    def _is_mine(self, message: Any, address: Address) -> bool:
+        if self._vehicle is None:
+            if message.get_type() != "HEARTBEAT" or not self._wanted(message):
+                return False
+            self._vehicle, self._system = address, message.get_srcSystem()
+            self._destination = address
+        return address == self._vehicle and message.get_srcSystem() == self._system
+
+    def _settle(self) -> None:
+        self._turns = SETTLING_TURNS
+        if self._hold is None and self._loop is not None:
+            self._hold = self._clock.busy()
+            self._hold.__enter__()
+            self._loop.call_soon(self._turn)
+
+    def _turn(self) -> None:
+        if self._hold is None or self._loop is None:
+            return
+        self._turns -= 1
+        if self._turns > 0:
+            self._loop.call_soon(self._turn)
+            return
+        self._release()
+        for callback in self._on_settled:
+            callback()
+
+    def _release(self) -> None:
+        if self._hold is not None:
+            hold, self._hold = self._hold, None
+            hold.__exit__(None, None, None)
+
+
+def parse_datagram(parser: Any, data: bytes) -> list[Any] | None:
+    """The frames of one datagram, or None if any part of it is damaged. Frames never span datagrams."""
+    parser.buf, parser.buf_index = bytearray(), 0
+    try:
+        messages = parser.parse_buffer(data) or []
+    except (mavlink.MAVError, struct.error, ValueError):
+        return None
+    damaged = not messages or parser.buf_len() > 0 or any(m.get_type() == "BAD_DATA" for m in messages)
+    return None if damaged else messages
+
+
+def _bind_error(endpoint: Endpoint, error: OSError) -> AdapterError:
+    if error.errno == errno.EADDRINUSE:
+        return AdapterError(
+            f"UDP port {endpoint.port} on {endpoint.host} is in use; is another ground station running?",
+            code="port_in_use",
+        )
+    return AdapterError(f"cannot listen on {endpoint.host}:{endpoint.port}: {error.strerror}", code="bad_connection")

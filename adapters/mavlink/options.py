@@ -1,0 +1,67 @@
+"""The options of a robot's part of the crew file that this adapter reads."""
+
+from typing import Annotated, Any, TypeVar
+
+import msgspec
+from msgspec import Meta
+
+from crew.errors import AdapterError, nearest
+
+Positive = Annotated[float, Meta(gt=0)]
+NotNegative = Annotated[float, Meta(ge=0)]
+Degrees = Annotated[float, Meta(gt=5, lt=160)]
+
+
+class VehicleOptions(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """What every vehicle has."""
+
+    system_id: Annotated[int, Meta(ge=1, le=254)] | None = None
+    """MAVLink system; without it, the first vehicle of the right kind that is heard."""
+    connect_timeout_s: Positive = 15.0
+    min_battery_percent: Annotated[float, Meta(ge=0, le=100)] = 15.0
+    stall_s: Positive = 8.0
+    """A skill fails after this long without progress."""
+
+
+class QuadcopterOptions(VehicleOptions, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    cruise_mps: Positive = 3.0
+    arrive_m: Positive = 0.5
+    """How far from a point, and from a height, still counts as there."""
+    fov_x_deg: Degrees = 60.0
+    """The camera's full field of view along body x (forward)."""
+    fov_y_deg: Degrees = 60.0
+    """And along body y (right)."""
+    overlap: Annotated[float, Meta(ge=0, le=0.9)] = 0.6
+    """Share of the footprint that neighbouring lanes of a sweep have in common."""
+    target_height_m: NotNegative = 0.3
+    """Height of the plane that detections are projected to, above home."""
+    confirm_hover_s: NotNegative = 3.0
+    """Time to hover over a fix for a better one; 0 leaves it out."""
+    hover_s: NotNegative = 10.0
+    """Time to hover before landing, in `hover_then_land`."""
+
+
+class RoverOptions(VehicleOptions, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    cruise_mps: Positive = 0.5
+    arrive_m: Positive = 0.3
+    """How far from the last way-point still counts as there."""
+    robot_radius_m: Positive = 0.2
+    clearance_m: NotNegative = 0.25
+    """Distance to keep from known obstacles, on top of the robot's radius."""
+    cell_m: Annotated[float, Meta(ge=0.05, le=1.0)] = 0.2
+    """Cell of the occupancy grid."""
+
+
+Options = TypeVar("Options", bound=VehicleOptions)
+
+
+def read_options(robot: str, given: dict[str, Any], kind: type[Options]) -> Options:
+    """The options, checked. Raises AdapterError `bad_option` naming the option and what is allowed."""
+    for name in given:
+        if name not in kind.__struct_fields__:
+            hint = nearest(name, kind.__struct_fields__)
+            raise AdapterError(f"{robot}: no option {name!r}{hint}", code="bad_option")
+    try:
+        return msgspec.convert(given, kind)
+    except msgspec.ValidationError as error:
+        raise AdapterError(f"{robot}: options: {error}", code="bad_option") from error

@@ -1,0 +1,110 @@
+"""One run of a skill: its permit, what it watches, how it waits. Ends by telemetry, never by an acknowledgement."""
+
+from collections.abc import Callable
+
+import msgspec
+
+from crew.adapters.mavlink.command import Command
+from crew.adapters.mavlink.flavours.flavour import Modes
+from crew.adapters.mavlink.vehicle import POLL_S, Vehicle, seconds_since
+from crew.adapters.mavlink.writer import Permit
+from crew.clock import seconds_ns
+from crew.errors import AdapterError
+
+MODE_GRACE_S = 2.5
+"""A commanded mode shows in the heartbeat at 1 Hz; this long may pass until it does."""
+STEP_M = 0.15
+"""A gap must shrink by this to count as progress: more than the noise of an estimate over one poll."""
+REASON_WINDOW_S = 3.0
+"""A takeover's reason is looked for this long before the heartbeat that showed it."""
+HANDS_OFF = frozenset({"mode_changed"})
+"""Codes of failures after which the vehicle is another's to command."""
+
+
+class Expectation(msgspec.Struct):
+    """Modes that the run's last command leads to, and whether one of them was seen since."""
+
+    modes: Modes
+    since_ns: int
+    seen: bool = False
+
+
+class Run:
+    """What a skill holds while it runs."""
+
+    def __init__(self, vehicle: Vehicle, permit: Permit, stall_s: float) -> None:
+        self.vehicle = vehicle
+        self.permit = permit
+        self.moved = False
+        """Whether anything that causes motion was sent."""
+        self._stall_s = stall_s
+        self._expectation: Expectation | None = None
+
+    async def command(self, *commands: Command, leads_to: Modes | None = None) -> None:
+        """Send commands in order, each accepted before the next; then hold the vehicle to the modes they lead to."""
+        for command in commands:
+            self.check()
+            self.moved = True
+            await self.vehicle.commander.send(command, self.permit)
+        if leads_to is not None:
+            self._expect(leads_to)
+
+    def check(self) -> None:
+        """Raise why the run is over: stopped or cancelled, vehicle lost or rebooted, mode changed underneath."""
+        self.permit.check()
+        if fault := self.vehicle.link_fault():
+            raise AdapterError(f"{self.vehicle.config.robot}: {fault}", code=_fault_code(fault))
+        self._check_mode()
+
+    async def until(self, done: Callable[[], bool], gap_m: Callable[[], float], what: str) -> None:
+        """Wait until `done`. Raises AdapterError `no_progress` when `gap_m` stops shrinking, and what `check` does."""
+        clock = self.vehicle.clock
+        best_m, since_ns = gap_m(), clock.now_ns()
+        while True:
+            self.permit.check()
+            if done():
+                return
+            self.check()
+            gap = gap_m()
+            if gap < best_m - STEP_M:
+                best_m, since_ns = gap, clock.now_ns()
+            if seconds_since(clock, since_ns) > self._stall_s:
+                raise AdapterError(
+                    f"{self.vehicle.config.robot}: {what}: no progress for {self._stall_s:g} s, "
+                    f"still {gap:.2f} m away in mode {self.vehicle.mode()}",
+                    code="no_progress",
+                )
+            await clock.sleep(POLL_S)
+
+    async def hold(self, seconds: float, over: Callable[[], bool] = lambda: False) -> None:
+        """Stay for a time of the mission, or until `over`, watching all the while."""
+        clock = self.vehicle.clock
+        start_ns = clock.now_ns()
+        while seconds_since(clock, start_ns) < seconds and not over():
+            self.check()
+            await clock.sleep(POLL_S)
+
+    def _expect(self, modes: Modes) -> None:
+        if self._expectation is None or self._expectation.modes != modes:
+            self._expectation = Expectation(modes, self.vehicle.clock.now_ns())
+
+    def _check_mode(self) -> None:
+        expected, heartbeat = self._expectation, self.vehicle.telemetry.heartbeat
+        if expected is None or heartbeat is None or heartbeat.stamp_ns <= expected.since_ns:
+            return
+        mode = self.vehicle.mode()
+        if mode in expected.modes:
+            expected.seen = True
+        elif expected.seen or seconds_since(self.vehicle.clock, expected.since_ns) > MODE_GRACE_S:
+            wanted = " or ".join(sorted(expected.modes))
+            raise AdapterError(
+                f"{self.vehicle.config.robot}: mode is {mode}, expected {wanted}; a pilot or a failsafe took over",
+                code="mode_changed",
+                reason="; ".join(self.vehicle.telemetry.texts.since(heartbeat.stamp_ns - seconds_ns(REASON_WINDOW_S))),
+            )
+
+
+def _fault_code(fault: str) -> str:
+    if "rebooted" in fault:
+        return "rebooted"
+    return "link_lost" if fault.startswith("link") else "position_lost"

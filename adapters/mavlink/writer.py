@@ -1,0 +1,79 @@
+"""The only way a message leaves for the vehicle: one lock orders setpoints, commands and the stop.
+
+No motion-causing message leaves after the latch is set: the check and the write happen under the same lock.
+"""
+
+from collections.abc import Callable
+from typing import Any
+
+from pymavlink.dialects.v20 import common as mavlink
+
+from crew.adapter import StopLatch
+from crew.errors import AdapterError, Latched
+
+GROUND_SYSTEM = 255
+GROUND_COMPONENT = mavlink.MAV_COMP_ID_MISSIONPLANNER
+
+HARMLESS_MESSAGES = frozenset({mavlink.MAVLINK_MSG_ID_HEARTBEAT, mavlink.MAVLINK_MSG_ID_PARAM_REQUEST_READ})
+HARMLESS_COMMANDS = frozenset({mavlink.MAV_CMD_SET_MESSAGE_INTERVAL, mavlink.MAV_CMD_REQUEST_MESSAGE})
+COMMAND_MESSAGES = frozenset({mavlink.MAVLINK_MSG_ID_COMMAND_LONG, mavlink.MAVLINK_MSG_ID_COMMAND_INT})
+
+
+class Permit:
+    """Leave to send motion-causing messages, held by one run of a skill until it is revoked.
+
+    A `safe` permit also works while the stop is latched: braking, and the robot's own landing.
+    """
+
+    def __init__(self, *, safe: bool = False) -> None:
+        self.safe = safe
+        self._revoked: AdapterError | None = None
+
+    def revoke(self, error: AdapterError) -> None:
+        """End the permit for good; the first reason stays."""
+        self._revoked = self._revoked or error
+
+    def check(self) -> None:
+        """Raise the reason if the permit was revoked."""
+        if self._revoked is not None:
+            raise self._revoked
+
+
+class Writer:
+    """Encodes and sends in sequence. Safe to call from any thread; never waits for anything but the lock."""
+
+    def __init__(self, latch: StopLatch, transmit: Callable[[bytes], None]) -> None:
+        self._latch = latch
+        self._transmit = transmit
+        self._encoder = mavlink.MAVLink(None, srcSystem=GROUND_SYSTEM, srcComponent=GROUND_COMPONENT)
+
+    def send(self, message: Any, permit: Permit | None = None) -> None:
+        """Send one message. Raises Latched, or the permit's reason, when it may cause motion and must not."""
+        with self._latch.lock:
+            if causes_motion(message):
+                self._admit(message, permit)
+            self._write(message)
+
+    def send_stop(self, message: Any) -> None:
+        """Send the vehicle's stop: always allowed, latched or not."""
+        with self._latch.lock:
+            self._write(message)
+
+    def _admit(self, message: Any, permit: Permit | None) -> None:
+        if permit is None:
+            raise AdapterError(f"{message.get_type()} may cause motion and came without a permit", code="no_permit")
+        permit.check()
+        if self._latch.latched and not permit.safe:
+            raise Latched(f"{message.get_type()} not sent: the stop is latched; reset the robot first")
+
+    def _write(self, message: Any) -> None:
+        data = bytes(message.pack(self._encoder))
+        self._encoder.seq = (self._encoder.seq + 1) % 256
+        self._transmit(data)
+
+
+def causes_motion(message: Any) -> bool:
+    """Whether a message may set the vehicle in motion or arm it: everything not known to be harmless."""
+    if message.get_msgId() in COMMAND_MESSAGES:
+        return message.command not in HARMLESS_COMMANDS
+    return message.get_msgId() not in HARMLESS_MESSAGES
