@@ -1,0 +1,90 @@
+"""Roles of a contract: somebody in the crew can play each, all at once, and each can be brought to safety."""
+
+from crew.contracts.contract_model import ContractModel
+from crew.contracts.contract_scope import Scope, needed_skills
+from crew.contracts.contract_value import check_operand
+from crew.contracts.source import Loc, Problems
+
+
+def check_roles(model: ContractModel, scope: Scope, problems: Problems) -> None:
+    used = {step.role for step in model.steps.values()}
+    for name in model.roles:
+        loc: Loc = ("roles", name)
+        if name in scope.values:
+            problems.key(loc, "role and run-time value of one name", observed=repr(name), fix="rename the role")
+        if name not in used:
+            problems.key(loc, "unused role", observed=repr(name), fix="give it a step, or remove it")
+        elif not _cast(name, model, scope, problems):
+            continue
+        _check_safe(name, model, scope, problems)
+    _check_distinct(model, scope, problems)
+
+
+def _cast(role: str, model: ContractModel, scope: Scope, problems: Problems) -> bool:
+    """Whether some robot has every skill of the role that any robot has (an unknown skill is its own problem)."""
+    real = {skill.name for kind in scope.kinds for skill in kind.skills}
+    needed = needed_skills(model, role) & real
+    lacking = {spec.name: _lacks(needed, scope, spec.kind) for spec in scope.casts[role]}
+    if lacking and not all(lacking.values()):
+        return True
+    shown = "; ".join(f"{name} lacks {', '.join(missing)}" for name, missing in lacking.items())
+    problems.key(
+        ("roles", role),
+        f"no robot of crew {scope.crew.name} can play {role}",
+        observed=shown or "a crew without robots",
+        allowed=f"a robot with {', '.join(sorted(needed))}",
+        fix="split the role, or add such a robot to the crew",
+    )
+    return False
+
+
+def _lacks(needed: set[str], scope: Scope, kind: str) -> list[str]:
+    return sorted(name for name in needed if scope.by_name[kind].skill(name) is None)
+
+
+def _check_distinct(model: ContractModel, scope: Scope, problems: Problems) -> None:
+    """Different roles are different robots: each must find one of its own."""
+    taken: dict[str, str] = {}
+    for role in model.roles:
+        if scope.casts[role] and not _place(role, scope, taken, set()):
+            names = ", ".join(spec.name for spec in scope.casts[role])
+            what = f"no robot is left for role {role}"
+            fix = "different roles are different robots; join the roles, or add a robot to the crew"
+            problems.key(("roles", role), what, observed=f"only {names} can play it, and other roles need it", fix=fix)
+
+
+def _place(role: str, scope: Scope, taken: dict[str, str], tried: set[str]) -> bool:
+    """Bipartite matching, one augmenting path."""
+    for spec in scope.casts[role]:
+        if spec.name in tried:
+            continue
+        tried.add(spec.name)
+        if spec.name not in taken or _place(taken[spec.name], scope, taken, tried):
+            taken[spec.name] = role
+            return True
+    return False
+
+
+def _check_safe(role: str, model: ContractModel, scope: Scope, problems: Problems) -> None:
+    safe = model.roles[role].safe
+    if safe is None:
+        return
+    loc: Loc = ("roles", role, "safe")
+    kinds = scope.kinds_of(role)
+    if not kinds or not all((skill := kind.skill(safe.by)) and skill.safe for kind in kinds):
+        valid = [skill.name for skill in (kinds[0].skills if kinds else ()) if skill.safe]
+        names = " or ".join(kind.name for kind in kinds)
+        problems.unknown((*loc, "by"), f"not a safe skill of {names or 'the role'}", safe.by, valid)
+    for fluent, value in safe.reach.items():
+        _check_reach(role, fluent, value, (*loc, "reach", fluent), scope, problems)
+
+
+def _check_reach(role: str, name: str, value: bool | float | str, loc: Loc, scope: Scope, problems: Problems) -> None:
+    fluent = scope.fluent_of(role, name)
+    if fluent is None:
+        kinds = scope.kinds_of(role)
+        valid = [f.name for f in (kinds[0].fluents if kinds else ())]
+        what = f"unknown fluent of {' or '.join(kind.name for kind in kinds) or 'the role'}"
+        problems.unknown(loc, what, name, valid, key=True)
+        return
+    check_operand(value, fluent.domain, loc, scope, problems)

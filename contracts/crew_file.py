@@ -1,0 +1,82 @@
+"""Crew files: text to a `Crew` whose names are unambiguous and whose places lie in its area."""
+
+from crew.contracts.crew_check import AREA, check
+from crew.contracts.crew_model import AreaModel, CrewModel, OriginModel, ZoneModel
+from crew.contracts.file_model import validate
+from crew.contracts.plan import Zone
+from crew.contracts.site import Crew, Location, NamedObject, NamedZone, RobotSpec, RuntimeValue, SimSpec
+from crew.contracts.source import Problems, parse
+
+
+def load_crew(text: str, *, source: str) -> Crew:
+    """The crew that the text holds; `source` names the file in errors. Raises SourceErrors with all mistakes."""
+    root = parse(text, file=source)
+    problems = Problems(source, root)
+    model = validate(CrewModel, root, problems)
+    if model is None:
+        problems.done()
+        raise AssertionError("a file that has no shape has problems")
+    check(model, problems)
+    problems.done()
+    return _build(model, source)
+
+
+def _build(model: CrewModel, source: str) -> Crew:
+    return Crew(
+        name=model.crew,
+        area=_zone(model.area),
+        origin=_origin(model.origin),
+        robots=_robots(model),
+        locations=tuple(
+            Location(name=name, x=place.at[0], y=place.at[1], aliases=tuple(place.aliases))
+            for name, place in model.locations.items()
+        ),
+        zones=_zones(model),
+        objects=tuple(NamedObject(name=name, aliases=tuple(o.aliases)) for name, o in model.objects.items()),
+        values=tuple(
+            RuntimeValue(name=name, aliases=tuple(value.aliases), standoff_m=value.standoff_m)
+            for name, value in model.values.items()
+        ),
+        contracts=tuple(model.contracts),
+        obstacles=tuple((x, y, radius) for x, y, radius in model.obstacles),
+        sim=_sim(model),
+        source=source,
+    )
+
+
+def _zone(written: AreaModel | ZoneModel) -> Zone:
+    (x_min, x_max), (y_min, y_max) = written.x or (0.0, 0.0), written.y or (0.0, 0.0)
+    return Zone(x_min=x_min, x_max=x_max, y_min=y_min, y_max=y_max)
+
+
+def _zones(model: CrewModel) -> tuple[NamedZone, ...]:
+    """The zones as named; the operational area is the area itself, and always there."""
+    written = {AREA: ZoneModel(), **model.zones}
+    return tuple(
+        NamedZone(name=name, zone=_zone(model.area if name == AREA else zone), aliases=tuple(zone.aliases))
+        for name, zone in written.items()
+    )
+
+
+def _origin(written: OriginModel | None) -> tuple[float, float, float]:
+    return (0.0, 0.0, 0.0) if written is None else (written.lat_deg, written.lon_deg, written.alt_m)
+
+
+def _robots(model: CrewModel) -> tuple[RobotSpec, ...]:
+    return tuple(
+        RobotSpec(
+            name=name,
+            kind=robot.kind,
+            adapter=robot.adapter,
+            aliases=tuple(robot.aliases),
+            sim=robot.sim or "",
+            connection=robot.connection or "",
+            options=robot.options,
+        )
+        for name, robot in model.robots.items()
+    )
+
+
+def _sim(model: CrewModel) -> SimSpec | None:
+    sim = model.sim
+    return None if sim is None else SimSpec(scene=sim.scene, map=sim.map, seed=sim.seed, faults=tuple(sim.faults))
