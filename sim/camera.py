@@ -22,7 +22,7 @@ RANGE_M = 60.0
 
 
 class Detection(NamedTuple):
-    """The target's centre and extent in the image, radians; x forward, y right, from the optical axis (straight down)."""
+    """The target's centre and extent in the image, radians; x forward, y right, from the optical axis (body's down)."""
 
     angle_x_rad: float
     angle_y_rad: float
@@ -74,7 +74,7 @@ class Camera:
         x, y, z = (rotation.T @ (self._centre - self._data.site_xpos[self._site])).tolist()
         aside = abs(y) * math.cos(HALF_WIDTH_RAD) + z * math.sin(HALF_WIDTH_RAD)
         ahead = abs(x) * math.cos(HALF_HEIGHT_RAD) + z * math.sin(HALF_HEIGHT_RAD)
-        return max(aside, ahead, z) > self._radius_m
+        return bool(max(aside, ahead, z) > self._radius_m)
 
     def _centroid(self, mask: NDArray[np.bool_]) -> Detection | None:
         rows, columns = np.nonzero(mask)

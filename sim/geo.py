@@ -1,4 +1,4 @@
-"""Flat-earth conversion between the world frame (ENU, metres) and latitude, longitude, height. Must not know MAVLink."""
+"""Flat-earth conversion between the world frame (ENU, metres) and latitude, longitude. Must not know MAVLink."""
 
 import math
 

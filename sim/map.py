@@ -22,11 +22,7 @@ class MapError(ValueError):
     """A map that cannot be used; the message names the file and the field."""
 
 
-class _Part(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
-    pass
-
-
-class Origin(_Part):
+class Origin(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """Where the world's (0, 0, 0) lies on the Earth; alt_m is above mean sea level."""
 
     lat_deg: Annotated[float, Meta(ge=-80.0, le=80.0)]
@@ -34,7 +30,7 @@ class Origin(_Part):
     alt_m: float
 
 
-class Area(_Part):
+class Area(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """The operational area, an upright rectangle."""
 
     x_min_m: float
@@ -46,16 +42,16 @@ class Area(_Part):
         return self.x_min_m <= x_m <= self.x_max_m and self.y_min_m <= y_m <= self.y_max_m
 
 
-class Spot(_Part):
+class Spot(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
     x_m: float
     y_m: float
 
 
-class Spawn(Spot):
+class Spawn(Spot, frozen=True, kw_only=True):
     yaw_rad: float = 0.0
 
 
-class Box(Spot, tag_field="shape", tag="box"):
+class Box(Spot, tag_field="shape", tag="box", frozen=True, kw_only=True):
     """A box on the ground; size_m is its full length, width and height."""
 
     name: str
@@ -67,7 +63,7 @@ class Box(Spot, tag_field="shape", tag="box"):
         return math.hypot(self.size_m[0], self.size_m[1]) / 2
 
 
-class Cylinder(Spot, tag_field="shape", tag="cylinder"):
+class Cylinder(Spot, tag_field="shape", tag="cylinder", frozen=True, kw_only=True):
     name: str
     radius_m: Length
     height_m: Length
@@ -77,7 +73,7 @@ class Cylinder(Spot, tag_field="shape", tag="cylinder"):
         return self.radius_m
 
 
-class Tree(Spot, tag_field="shape", tag="tree"):
+class Tree(Spot, tag_field="shape", tag="tree", frozen=True, kw_only=True):
     """A trunk under a round canopy, which hides from above what stands beneath it; height_m is the canopy's top."""
 
     name: str
@@ -93,7 +89,7 @@ class Tree(Spot, tag_field="shape", tag="tree"):
 Obstacle = Box | Cylinder | Tree
 
 
-class Map(_Part):
+class Map(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
     name: str
     scene: str
     origin: Origin

@@ -19,7 +19,10 @@ class Spec(NamedTuple):
 
 
 class Parameters:
-    """Current values. bytewise: an INT32 travels as its four bytes (PX4), else as the float of equal value (ArduPilot)."""
+    """Current values.
+
+    bytewise: an INT32 travels as its four bytes in the float's place (PX4), else as a float of equal value (ArduPilot).
+    """
 
     def __init__(self, specs: Iterable[Spec], *, bytewise: bool) -> None:
         self._specs = {spec.name: spec for spec in specs}

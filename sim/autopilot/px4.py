@@ -125,7 +125,7 @@ class Px4Quadcopter(Autopilot):
                 detection.size_x_rad,
                 detection.size_y_rad,
                 type=mavlink.LANDING_TARGET_TYPE_VISION_OTHER,
-            )  # fmt: skip
+            )
         )
 
     # Commands.

@@ -32,7 +32,10 @@ class Ground:
         self.origin = self.world.map.origin
 
     def __enter__(self) -> Self:
-        self.run(0.2)
+        self.run(0.1)  # the vehicles' first telemetry tells where they are
+        if self.heartbeat:
+            self._beat()
+        self.run(0.1)
         return self
 
     def __exit__(
