@@ -10,14 +10,14 @@ from crew.mailbox import BATCH, CommandRefusal, Commands, Events, KeepLatest, Ma
 from crew.wire import Message, Refusal, encode
 
 
-class Ping(Message):
+class Ping(Message, frozen=True):
     schema: ClassVar[str] = "crew.test_ping"
     version: ClassVar[int] = 1
 
     number: int
 
 
-class Pong(Message):
+class Pong(Message, frozen=True):
     schema: ClassVar[str] = "crew.test_pong"
     version: ClassVar[int] = 1
 

