@@ -27,15 +27,15 @@ class QuadcopterOptions(VehicleOptions, frozen=True, kw_only=True, forbid_unknow
     cruise_mps: Positive = 3.0
     arrive_m: Positive = 0.5
     """How far from a point, and from a height, still counts as there."""
-    fov_x_deg: Degrees = 60.0
-    """The camera's full field of view along body x (forward)."""
-    fov_y_deg: Degrees = 60.0
-    """And along body y (right)."""
-    overlap: Annotated[float, Meta(ge=0, le=0.9)] = 0.6
+    fov_x_deg: Degrees = 80.0
+    """The camera's full field of view along the image's width, which lies along body y (to the sides)."""
+    fov_y_deg: Degrees = 64.0
+    """And along the image's height, which lies along body x (fore and aft)."""
+    overlap: Annotated[float, Meta(ge=0, le=0.9)] = 0.7
     """Share of the footprint that neighbouring lanes of a sweep have in common."""
     target_height_m: NotNegative = 0.3
     """Height of the plane that detections are projected to, above home."""
-    confirm_hover_s: NotNegative = 3.0
+    confirm_hover_s: NotNegative = 5.0
     """Time to hover over a fix for a better one; 0 leaves it out."""
     hover_s: NotNegative = 10.0
     """Time to hover before landing, in `hover_then_land`."""

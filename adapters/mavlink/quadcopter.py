@@ -139,8 +139,8 @@ class QuadcopterSkills:
             raise AdapterError("search_target: a zone's minimum lies above its maximum", code="bad_argument")
         options, motion = self._options, self._motion()
         above_m = max(height_m - options.target_height_m, 0.5)
-        along_m = footprint_m(above_m, options.fov_x_deg)
-        across_m = footprint_m(above_m, options.fov_y_deg)
+        along_m = footprint_m(above_m, options.fov_y_deg)
+        across_m = footprint_m(above_m, options.fov_x_deg)
         return plan_sweep(zone, along_m, across_m, options.overlap, (motion.x_m, motion.y_m))
 
     async def _fly(self, run: Run, sweep: Sweep, height_m: float) -> None:

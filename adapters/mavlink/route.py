@@ -15,20 +15,34 @@ Cell = tuple[int, int]
 
 RING_M = 0.3
 """A cell this far outside the stand-off circle still counts as beside the target."""
+SLACK_M = 0.02
+"""A spot that clearance was given up for lies this far outside."""
 STEPS = ((1, 0), (-1, 0), (0, 1), (0, -1), (1, 1), (1, -1), (-1, 1), (-1, -1))
 
 
 class Ground:
-    """Where a point robot may be: inside the area and outside every disc, `grow_m` added to each.
+    """Where a point robot may be: inside the area and outside every disc, the robot's radius and a clearance added.
 
-    A disc around which the start already lies too close is grown only as far as lets the robot leave.
+    Clearance is given up where `start` or `target` needs it; a start that lies closer still may be left.
     """
 
     def __init__(
-        self, area: tuple[float, float, float, float], obstacles: Sequence[Disc], grow_m: float, start: Spot
+        self,
+        area: tuple[float, float, float, float],
+        obstacles: Sequence[Disc],
+        *,
+        radius_m: float,
+        clearance_m: float,
+        start: Spot,
+        target: Spot,
     ) -> None:
         self.area = area
-        self._discs = [(x, y, min(r + grow_m, max(r, math.dist(start, (x, y)) - 0.02))) for x, y, r in obstacles]
+        self._discs: list[Disc] = []
+        for x, y, r in obstacles:
+            grown_m = r + radius_m + clearance_m
+            grown_m = min(grown_m, max(r + radius_m, math.dist(target, (x, y)) - SLACK_M))
+            grown_m = min(grown_m, max(r, math.dist(start, (x, y)) - SLACK_M))
+            self._discs.append((x, y, grown_m))
 
     def free(self, spot: Spot) -> bool:
         """Whether the robot may stand at `spot`."""

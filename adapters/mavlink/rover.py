@@ -77,8 +77,16 @@ class RoverSkills:
         edge_m = options.robot_radius_m if config.geofence else -1000.0
         x_min, x_max, y_min, y_max = config.area
         area = (x_min + edge_m, x_max - edge_m, y_min + edge_m, y_max - edge_m)
-        ground = Ground(area, config.obstacles, options.robot_radius_m + options.clearance_m, here)
-        return plan_route(ground, here, (place.x, place.y), place.standoff_m, options.cell_m)
+        target = (place.x, place.y)
+        ground = Ground(
+            area,
+            config.obstacles,
+            radius_m=options.robot_radius_m,
+            clearance_m=options.clearance_m,
+            start=here,
+            target=target,
+        )
+        return plan_route(ground, here, target, place.standoff_m, options.cell_m)
 
     async def _leg(self, run: Run, spot: Spot, near_m: float, slow_mps: float) -> None:
         place = self._vehicle.place(*spot, 0.0)

@@ -1,0 +1,152 @@
+"""Adapters against the simulated world in lockstep: time moves only when no datagram is on its way."""
+
+import asyncio
+import contextlib
+import socket
+from collections.abc import AsyncIterator, Awaitable, Callable
+from typing import Any, TypeVar
+
+from crew.adapter import AdapterConfig
+from crew.adapters.mavlink.adapter import MavlinkAdapter
+from crew.clock import SimClock
+from crew.sim.config import WorldConfig
+from crew.sim.world import World
+
+T = TypeVar("T")
+
+SLICE_NS = 50_000_000
+AREA = (-6.0, 10.0, -6.0, 10.0)
+KINDS = {"iris": "quadcopter", "tb3": "rover"}
+
+
+def free_port() -> int:
+    """A UDP port that nobody listens on."""
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sock:
+        sock.bind(("127.0.0.1", 0))
+        return int(sock.getsockname()[1])
+
+
+def discs(world: World) -> tuple[tuple[float, float, float], ...]:
+    """The map's obstacles as discs; a long box is a row of them."""
+    found = []
+    for obstacle in world.map.obstacles:
+        size = getattr(obstacle, "size_m", None)
+        if size is None:
+            found.append((obstacle.x_m, obstacle.y_m, obstacle.reach_m))
+        else:
+            found.extend(_row(obstacle, *size[:2]))
+    return tuple(found)
+
+
+def _row(box: Any, length_m: float, width_m: float) -> list[tuple[float, float, float]]:
+    import math
+
+    along = box.yaw_rad if length_m >= width_m else box.yaw_rad + math.pi / 2
+    long_m, short_m = max(length_m, width_m), min(length_m, width_m)
+    count = max(1, math.ceil(long_m / short_m))
+    piece_m = long_m / count
+    radius_m = math.hypot(piece_m, short_m) / 2
+    offsets = [(i + 0.5) * piece_m - long_m / 2 for i in range(count)]
+    return [(box.x_m + o * math.cos(along), box.y_m + o * math.sin(along), radius_m) for o in offsets]
+
+
+class Lockstep:
+    """One world, one clock, an adapter for each robot."""
+
+    def __init__(self, *, seed: int = 0, faults: tuple[str, ...] = (), options: dict[str, Any] | None = None) -> None:
+        ports = {name: free_port() for name in KINDS}
+        links = {name: f"udp:127.0.0.1:{port}" for name, port in ports.items()}
+        self.world = World(WorldConfig(seed=seed, faults=faults, links=links))
+        self.clock = SimClock()
+        origin = self.world.map.origin
+        self.adapters = {
+            name: MavlinkAdapter(
+                AdapterConfig(
+                    robot=name,
+                    kind=kind,
+                    connection=f"udpin:127.0.0.1:{ports[name]}",
+                    options=(options or {}).get(name, {}),
+                    area=AREA,
+                    origin=(origin.lat_deg, origin.lon_deg, origin.alt_m),
+                    obstacles=discs(self.world),
+                ),
+                self.clock,
+            )
+            for name, kind in KINDS.items()
+        }
+        self.connected: list[str] = []
+
+    @property
+    def iris(self) -> MavlinkAdapter:
+        return self.adapters["iris"]
+
+    @property
+    def tb3(self) -> MavlinkAdapter:
+        return self.adapters["tb3"]
+
+    async def run(self, work: Awaitable[T], limit_s: float = 400.0) -> T:
+        """Advance the world until `work` is done."""
+        task = asyncio.ensure_future(work)
+        end_ns = self.clock.now_ns() + round(limit_s * 1e9)
+        try:
+            await self._turns()
+            while not task.done():
+                assert self.clock.now_ns() < end_ns, "simulated time ran out"
+                await self.step()
+        finally:
+            task.cancel()
+            await asyncio.gather(task, return_exceptions=True)
+        return task.result()
+
+    async def advance(self, seconds: float) -> None:
+        end_ns = self.clock.now_ns() + round(seconds * 1e9)
+        while self.clock.now_ns() < end_ns:
+            await self.step()
+
+    async def until(self, done: Callable[[], bool], limit_s: float = 60.0) -> None:
+        end_ns = self.clock.now_ns() + round(limit_s * 1e9)
+        while not done():
+            assert self.clock.now_ns() < end_ns, "simulated time ran out"
+            await self.step()
+
+    async def step(self) -> None:
+        self.world.advance(self.world.time_ns + SLICE_NS)
+        await self._arrived()
+        self.clock.advance(self.world.time_ns)
+        await self._turns()
+
+    async def _arrived(self) -> None:
+        """Wait until everything that the world sent was received and handled."""
+        for _ in range(10_000):
+            counts = self.world.counts()
+            if all(self.adapters[name].link_counts()[1] >= counts[name].sent for name in self.connected):
+                break
+            await asyncio.sleep(0)
+        else:
+            raise AssertionError(f"datagrams lost: {self.world.counts()}")
+        while self.clock.is_busy:
+            await asyncio.sleep(0)
+
+    async def _turns(self) -> None:
+        for _ in range(8):
+            await asyncio.sleep(0)
+
+    async def close(self) -> None:
+        for adapter in self.adapters.values():
+            await adapter.close()
+        self.world.close()
+
+
+@contextlib.asynccontextmanager
+async def lockstep(*robots: str, **how: Any) -> AsyncIterator[Lockstep]:
+    """A world with the named robots' adapters connected."""
+    stage = Lockstep(**how)
+    try:
+        for name in robots:
+            connecting = asyncio.ensure_future(stage.adapters[name].connect())
+            await asyncio.sleep(0)
+            stage.connected.append(name)
+            await stage.run(connecting)
+        yield stage
+    finally:
+        await stage.close()
