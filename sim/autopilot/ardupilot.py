@@ -7,8 +7,10 @@ from pymavlink.dialects.v20 import common as mavlink
 
 from crew.sim.autopilot.autopilot import Autopilot
 from crew.sim.autopilot.command import ABSOLUTE, ACCEPTED, RELATIVE, Command, Outcome, denied, flag, rejected
+from crew.sim.autopilot.failure import Failures
 from crew.sim.autopilot.link import Link
 from crew.sim.autopilot.parameters import Parameters, Spec
+from crew.sim.autopilot.target import on_earth
 from crew.sim.autopilot.telemetry import HEARTBEAT_ONLY_HZ
 from crew.sim.faults import Faults
 from crew.sim.geo import GeoFrame
@@ -48,7 +50,7 @@ class ArduPilotRover(Autopilot):
         self.mode = HOLD
         self._armed = False
         self._speed: float | None = None
-        self._failed: set[str] = set()
+        self._failures = Failures()
         self._commands |= {
             mavlink.MAV_CMD_DO_SET_MODE: self._set_mode,
             mavlink.MAV_CMD_DO_REPOSITION: self._reposition,
@@ -77,7 +79,7 @@ class ArduPilotRover(Autopilot):
         base |= mavlink.MAV_MODE_FLAG_GUIDED_ENABLED if self.mode == GUIDED else 0
         base |= mavlink.MAV_MODE_FLAG_SAFETY_ARMED if self._armed else 0
         status = mavlink.MAV_STATE_ACTIVE if self._armed else mavlink.MAV_STATE_STANDBY
-        if self._failed:
+        if self._failures:
             status = mavlink.MAV_STATE_CRITICAL
         return mavlink.MAVLink_heartbeat_message(
             mavlink.MAV_TYPE_GROUND_ROVER, mavlink.MAV_AUTOPILOT_ARDUPILOTMEGA, base, self.mode, status, 3
@@ -111,7 +113,7 @@ class ArduPilotRover(Autopilot):
     def _reposition(self, command: Command) -> Outcome:
         if command.frame is None:
             return Outcome(mavlink.MAV_RESULT_COMMAND_INT_ONLY, "Reposition: COMMAND_INT only")
-        if command.frame not in ABSOLUTE | RELATIVE or not _on_earth(command.x, command.y):
+        if command.frame not in ABSOLUTE | RELATIVE or not on_earth(command.x, command.y):
             return denied("Reposition denied: frame or position")
         if self.mode != GUIDED:
             if not flag(command.p2) & mavlink.MAV_DO_REPOSITION_FLAGS_CHANGE_MODE:
@@ -135,7 +137,7 @@ class ArduPilotRover(Autopilot):
         known = message.coordinate_frame in ABSOLUTE | RELATIVE
         if self.for_me(message) and self.mode == GUIDED and known and position:
             lat_deg, lon_deg = message.lat_int * 1e-7, message.lon_int * 1e-7
-            if _on_earth(lat_deg, lon_deg):
+            if on_earth(lat_deg, lon_deg):
                 self._drive_to(lat_deg, lon_deg)
 
     def _drive_to(self, lat_deg: float, lon_deg: float) -> None:
@@ -153,23 +155,19 @@ class ArduPilotRover(Autopilot):
 
     def supervise(self) -> None:
         if not self._armed:
-            self._failed.clear()
+            self._failures.clear()
             return
-        timeout_s = self.parameters["FS_GCS_TIMEOUT"]
-        ground = self.parameters["FS_GCS_ENABLE"] != 0 and self.ground_silence_s > timeout_s
-        self._fail_if(ground, "GCS failsafe", self.parameters["FS_ACTION"] != 0)
+        self._fail_if(self._link_lost(), "GCS failsafe", self.parameters["FS_ACTION"] != 0)
         self._fail_if(not self.gps_ok, "EKF failsafe: no position", self.parameters["FS_EKF_ACTION"] != 0)
 
+    def _link_lost(self) -> bool:
+        """Whether the ground has fallen silent and that matters; one that was never heard is not lost."""
+        on = self.parameters["FS_GCS_ENABLE"] != 0
+        return on and self.parameters["FS_GCS_TIMEOUT"] < self.ground_silence_s < math.inf
+
     def _fail_if(self, failing: bool, what: str, hold: bool) -> None:
-        """Act when a failure begins; note when it ends. The mode stays as the failsafe left it."""
-        if not failing:
-            self._failed.discard(what)
-        elif what not in self._failed:
-            self._failed.add(what)
+        """Act when a failure begins. The mode stays as the failsafe left it when the failure ends."""
+        if self._failures.begins(what, failing):
             self.say(mavlink.MAV_SEVERITY_CRITICAL, f"{what}{': HOLD' if hold else ''}")
             if hold:
                 self._enter(HOLD)
-
-
-def _on_earth(lat_deg: float, lon_deg: float) -> bool:
-    return not math.isnan(lat_deg + lon_deg) and abs(lat_deg) <= 90.0 and abs(lon_deg) <= 180.0

@@ -4,6 +4,7 @@ A flavour decides what a command means and what a failsafe does. Must not plan p
 time comes from the world.
 """
 
+import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
 from typing import Any, ClassVar
@@ -149,7 +150,7 @@ class Autopilot(ABC):
     def ground_silence_s(self) -> float:
         """Seconds since the ground's last heartbeat; infinite before the first."""
         if self._ground_heard_ns is None:
-            return float("inf")
+            return math.inf
         return (self.time_ns - self._ground_heard_ns) / NS
 
     def for_me(self, message: Any) -> bool:
@@ -187,14 +188,14 @@ class Autopilot(ABC):
         return denied("arm or disarm: param1 is neither 1 nor 0")
 
     def _set_interval(self, command: Command) -> Outcome:
-        message_id = flag(command.p1)
+        message_id = -1 if math.isnan(command.p1) else flag(command.p1)
         if not self.streams.knows(message_id):
             return denied(f"no stream of message {message_id}")
         self.streams.set_interval(message_id, flag(command.p2), self.time_ns)
         return ACCEPTED
 
     def _request_message(self, command: Command) -> Outcome:
-        message_id = flag(command.p1)
+        message_id = -1 if math.isnan(command.p1) else flag(command.p1)
         message = self._version() if message_id == mavlink.MAVLINK_MSG_ID_AUTOPILOT_VERSION else None
         if message_id in ENCODERS:
             message = ENCODERS[message_id](self)

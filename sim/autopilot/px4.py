@@ -7,9 +7,11 @@ from pymavlink.dialects.v20 import common as mavlink
 
 from crew.sim.autopilot.autopilot import NS, Autopilot
 from crew.sim.autopilot.command import ACCEPTED, Command, Outcome, denied, flag, rejected
+from crew.sim.autopilot.failure import Failures
 from crew.sim.autopilot.flight import AIRBORNE, Event, Phase, follow
 from crew.sim.autopilot.link import Link
 from crew.sim.autopilot.parameters import Parameters, Spec
+from crew.sim.autopilot.target import Target, inside_fence, resolve
 from crew.sim.autopilot.telemetry import FULL_RATES_HZ
 from crew.sim.camera import Detection
 from crew.sim.faults import Faults
@@ -22,6 +24,8 @@ AUTO = 4
 TAKEOFF, LOITER, RTL, LAND = 2, 3, 5, 6  # sub-modes of AUTO
 SUB_MODE = {Phase.TAKEOFF: TAKEOFF, Phase.RETURN: RTL, Phase.LAND: LAND, Phase.LANDED: LAND}
 MODE_EVENT = {LOITER: Event.HOLD, RTL: Event.RETURN, LAND: Event.LAND}
+LINK_LOST_EVENT = {1: Event.HOLD, 2: Event.RETURN, 3: Event.LAND}  # by NAV_DLL_ACT
+LOW_BATTERY_EVENT = {1: Event.RETURN, 2: Event.LAND, 3: Event.RETURN}  # by COM_LOW_BAT_ACT
 REACHED_M = 0.4
 
 PARAMETERS = (
@@ -60,7 +64,7 @@ class Px4Quadcopter(Autopilot):
         self.phase = Phase.DISARMED
         self._since_ns = 0
         self._speed = self.parameters["MPC_XY_VEL_MAX"]
-        self._failed: set[str] = set()
+        self._failures = Failures()
         self._commands |= {
             mavlink.MAV_CMD_NAV_TAKEOFF: self._takeoff,
             mavlink.MAV_CMD_NAV_LAND: lambda _: self._change(Event.LAND),
@@ -97,7 +101,7 @@ class Px4Quadcopter(Autopilot):
         base |= mavlink.MAV_MODE_FLAG_GUIDED_ENABLED | mavlink.MAV_MODE_FLAG_AUTO_ENABLED
         base |= mavlink.MAV_MODE_FLAG_SAFETY_ARMED if self.armed else 0
         status = mavlink.MAV_STATE_ACTIVE if self.armed else mavlink.MAV_STATE_STANDBY
-        if self._failed and self.armed:
+        if self._failures and self.armed:
             status = mavlink.MAV_STATE_CRITICAL
         mode = AUTO << 16 | SUB_MODE.get(self.phase, LOITER) << 24
         return mavlink.MAVLink_heartbeat_message(
@@ -106,7 +110,7 @@ class Px4Quadcopter(Autopilot):
 
     def problems(self) -> list[str]:
         found = super().problems()
-        if self.battery.fraction < self.parameters["BAT_CRIT_THR"]:
+        if self._battery_critical():
             found.append("low battery")
         return found
 
@@ -134,7 +138,7 @@ class Px4Quadcopter(Autopilot):
         if not self.armed:
             problems = self.problems()
             if self._link_lost():
-                problems.append("no connection to the ground control station")
+                problems.append("no ground station connected")
             if problems:
                 return rejected(f"Arming denied: {problems[0]}")
         return self._change(Event.ARM)
@@ -173,31 +177,17 @@ class Px4Quadcopter(Autopilot):
             return denied("Reposition denied: mode change flag not set")
         if self.phase not in AIRBORNE:
             return rejected("Reposition denied: not in the air")
-        target = self._target(command)
+        here = Target(self.state.x, self.state.y, self.state.z)
+        target = resolve(command, self.geo, here)
         if target is None:
             return denied("Reposition denied: frame or position")
-        if not self._inside_fence(*target):
+        if not inside_fence(target, self.home, self.parameters["GF_MAX_HOR_DIST"], self.parameters["GF_MAX_VER_DIST"]):
             return denied("Reposition denied: outside geofence")
         self._change(Event.REPOSITION)
         speed = command.p1 if command.p1 > 0.0 else self._speed
         yaw = None if math.isnan(command.p4) else enu_yaw_to_heading_rad(command.p4)
         self.vehicle.fly_to(*target, min(speed, self.parameters["MPC_XY_VEL_MAX"]), yaw)
         return ACCEPTED
-
-    def _target(self, command: Command) -> tuple[float, float, float] | None:
-        s = self.state
-        here = self.geo.to_geo(s.x, s.y)
-        height = command.height_m(self.geo.origin.alt_m, s.z)
-        lat_deg = here[0] if math.isnan(command.x) else command.x
-        lon_deg = here[1] if math.isnan(command.y) else command.y
-        if height is None or abs(lat_deg) > 90.0 or abs(lon_deg) > 180.0:
-            return None
-        return (*self.geo.to_world(lat_deg, lon_deg), height)
-
-    def _inside_fence(self, x_m: float, y_m: float, height_m: float) -> bool:
-        level, high = self.parameters["GF_MAX_HOR_DIST"], self.parameters["GF_MAX_VER_DIST"]
-        away = math.hypot(x_m - self.home[0], y_m - self.home[1])
-        return not ((level > 0.0 and away > level) or (high > 0.0 and height_m > high))
 
     def _change_speed(self, command: Command) -> Outcome:
         if not command.p2 > 0.0:
@@ -227,7 +217,7 @@ class Px4Quadcopter(Autopilot):
         match after:
             case Phase.DISARMED:
                 vehicle.spin_down()
-                self._failed.clear()
+                self._failures.clear()
                 self._speed = self.parameters["MPC_XY_VEL_MAX"]
                 self.say(mavlink.MAV_SEVERITY_INFO, "Disarmed")
             case Phase.ARMED if before is Phase.DISARMED:
@@ -260,26 +250,20 @@ class Px4Quadcopter(Autopilot):
                 self._change(Event.IDLE)
 
     def _failsafes(self) -> None:
-        if not self.gps_ok:
-            self._fail("position lost: descending", Event.LAND)
-        if self.battery.fraction < self.parameters["BAT_CRIT_THR"]:
-            action = {1: Event.RETURN, 2: Event.LAND, 3: Event.RETURN}.get(int(self.parameters["COM_LOW_BAT_ACT"]))
-            self._fail("battery critical", action)
-        if self._link_lost():
-            action = {1: Event.HOLD, 2: Event.RETURN, 3: Event.LAND}[int(self.parameters["NAV_DLL_ACT"])]
-            self._fail("ground link lost", action)
-        else:
-            self._failed.discard("ground link lost")
+        link, battery = int(self.parameters["NAV_DLL_ACT"]), int(self.parameters["COM_LOW_BAT_ACT"])
+        self._fail_if(not self.gps_ok, "position lost", Event.LAND)
+        self._fail_if(self._battery_critical(), "battery critical", LOW_BATTERY_EVENT.get(battery))
+        self._fail_if(self._link_lost(), "ground link lost", LINK_LOST_EVENT.get(link))
+
+    def _battery_critical(self) -> bool:
+        return self.battery.fraction < self.parameters["BAT_CRIT_THR"]
 
     def _link_lost(self) -> bool:
         """Whether the ground is silent and that matters."""
         return self.parameters["NAV_DLL_ACT"] != 0 and self.ground_silence_s > self.parameters["COM_DL_LOSS_T"]
 
-    def _fail(self, what: str, action: Event | None) -> None:
-        """Act on a failure once, when it begins."""
-        if what in self._failed:
-            return
-        self._failed.add(what)
-        self.say(mavlink.MAV_SEVERITY_CRITICAL, f"Failsafe: {what}")
-        if action is not None and self.phase is not Phase.LAND:
-            self._change(action)
+    def _fail_if(self, failing: bool, what: str, action: Event | None) -> None:
+        if self._failures.begins(what, failing):
+            self.say(mavlink.MAV_SEVERITY_CRITICAL, f"Failsafe: {what}")
+            if action is not None and self.phase is not Phase.LAND:
+                self._change(action)

@@ -34,7 +34,6 @@ class Quadcopter:
         self.battery = Battery(BATTERY_J, cells=4)
         self.spinning = False
         self.flying = False
-        self.true = self.body.read()
         self.slow_sense()
         self.fast_step()
 
@@ -100,7 +99,7 @@ class Quadcopter:
         self._drain()
 
     def slow_sense(self) -> None:
-        self._estimator.update_position(self.true)
+        self._estimator.update_position(self.body.read())
 
     def _watch_touchdown(self) -> None:
         lift = sum(self._thrusts)

@@ -1,4 +1,7 @@
-"""The differential-drive rover: body, estimate and inner loops. Knows no MAVLink and no modes, and plans no path."""
+"""The differential-drive rover: body, estimate and inner loops. Knows no MAVLink and no modes, and plans no path.
+
+The wheels' velocity servos, its fastest loop, are part of the MuJoCo model.
+"""
 
 from typing import Any
 
@@ -27,8 +30,7 @@ class Rover:
         self._loop = DriveLoop(step_s)
         self._step_s = step_s
         self.battery = Battery(BATTERY_J, cells=3)
-        self.true = self.body.read()
-        self._estimator.update(self.true)
+        self._estimator.update(self.body.read())
 
     @property
     def state(self) -> State:
@@ -46,9 +48,6 @@ class Rover:
     def halt(self) -> None:
         """Stop where it stands and forget the target."""
         self._loop.halt()
-
-    def fast_step(self) -> None:
-        """Nothing to do at the physics rate: the wheels' velocity servos live in the model."""
 
     def slow_step(self) -> None:
         """Refresh the estimate, set the wheels' speeds and drain the battery."""

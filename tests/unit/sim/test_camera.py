@@ -43,7 +43,7 @@ class Rig:
 
 
 @pytest.mark.parametrize(
-    ("pose"),
+    "pose",
     [
         (5.0, 5.0, 5.0),
         (3.0, 4.0, 5.0),
@@ -72,11 +72,11 @@ def test_forward_is_positive_x_and_right_is_positive_y() -> None:
 
 def test_canopy_hides_the_victim_from_above_but_not_from_the_side() -> None:
     tree = next(obstacle for obstacle in MAP_A.obstacles if isinstance(obstacle, Tree))
-    under = Spot(x_m=tree.x_m - 0.4, y_m=tree.y_m)
+    under = Spot(x_m=tree.x_m - 0.9, y_m=tree.y_m)
     rig = Rig(Map(**{name: getattr(MAP_A, name) for name in MAP_A.__struct_fields__} | {"victim": under}))
     rig.put(tree.x_m, tree.y_m, 6.0)
     assert rig.camera.detect() is None
-    rig.put(tree.x_m - 2.5, tree.y_m, 2.5)
+    rig.put(tree.x_m - 2.2, tree.y_m, 3.0)
     assert rig.camera.detect() is not None
 
 

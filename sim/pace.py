@@ -1,0 +1,77 @@
+"""Who the simulation waits for between two slices, and how long: lockstep membership and wall-clock pacing."""
+
+import msgspec
+
+from crew.clock import WALL, seconds_ns
+from crew.mailbox import Events, Letter
+from crew.messages import ClockAck
+
+SILENT_S = 1.0
+"""A participant that says nothing for so long of wall time drops out; its next word brings it back."""
+
+
+class Member(msgspec.Struct):
+    """One participant as last heard."""
+
+    slice: int
+    datagrams: int
+    idle: bool
+    heard_ns: int
+
+
+class Lockstep:
+    """Waits until every participant has acknowledged a slice, or has dropped out."""
+
+    def __init__(self, acks: Events[Letter[ClockAck]]) -> None:
+        self.members: dict[str, Member] = {}
+        self.dropped = 0
+        self._acks = acks
+
+    async def wait(self, number: int) -> None:
+        """Return when nobody is still working on slice `number`."""
+        self._hear()
+        while waiting := [m for m in self.members.values() if m.slice < number]:
+            oldest_ns = min(m.heard_ns for m in waiting)
+            left_s = SILENT_S - (WALL.now_ns() - oldest_ns) / 1e9
+            if left_s <= 0:
+                self._drop_silent(number)
+                continue
+            await WALL.race(self._acks.changed(), left_s)
+            self._hear()
+
+    @property
+    def idle(self) -> bool:
+        """Nobody has anything to do: the simulation need not run ahead of the wall's clock."""
+        return all(m.idle for m in self.members.values())
+
+    def _hear(self) -> None:
+        while letters := self._acks.take():
+            for letter in letters:
+                ack = letter.message
+                known = self.members.get(ack.name)
+                done = ack.slice if not ack.holding else (known.slice if known else ack.slice - 1)
+                self.members[ack.name] = Member(done, ack.datagrams, ack.idle, WALL.now_ns())
+
+    def _drop_silent(self, number: int) -> None:
+        limit_ns = WALL.now_ns() - seconds_ns(SILENT_S)
+        for name, member in list(self.members.items()):
+            if member.slice < number and member.heard_ns <= limit_ns:
+                del self.members[name]
+                self.dropped += 1
+
+
+class Pace:
+    """Holds the simulation to a multiple of real time; restarts its count after a stretch that was not paced."""
+
+    def __init__(self) -> None:
+        self._due_ns = 0
+
+    async def wait(self, slice_s: float, speed: float) -> None:
+        """Sleep until the next slice is due at `speed` times real time."""
+        now_ns = WALL.now_ns()
+        step_ns = round(seconds_ns(slice_s) / speed)
+        if not now_ns - 4 * step_ns <= self._due_ns <= now_ns + step_ns:
+            self._due_ns = now_ns
+        self._due_ns += step_ns
+        if self._due_ns > now_ns:
+            await WALL.sleep((self._due_ns - now_ns) / 1e9)

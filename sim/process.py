@@ -1,0 +1,114 @@
+"""The simulation process: steps the world slice by slice, publishes mission time and truth, takes faults."""
+
+from collections.abc import Mapping
+
+import msgspec
+
+from crew.bus.port import Bus, Qos
+from crew.bus.zenoh import ZenohBus
+from crew.clock import turn
+from crew.errors import UsageError
+from crew.keys import Keys
+from crew.mailbox import Events, Letter, letters
+from crew.messages import ClockAck, ClockTick, SimFault, SimTruth
+from crew.process import ChildContext, run_child
+from crew.sim.config import WorldConfig
+from crew.sim.pace import Lockstep, Pace
+from crew.sim.world import World
+
+SLICE_NS = 50_000_000
+TRUTH_EVERY = 2
+"""Slices between two messages of truth."""
+
+
+class SimulationSpec(msgspec.Struct, frozen=True, kw_only=True):
+    """What the simulation process is started with. `speed` 0 is lockstep: as fast as everybody can follow."""
+
+    crew: str
+    router: str
+    world: WorldConfig
+    vehicles: Mapping[str, str]
+    """Robot to the vehicle of the scene that it is."""
+    speed: float
+
+
+class Simulation:
+    """Owns the world; nobody else reads it but through the bus."""
+
+    def __init__(self, bus: Bus, keys: Keys, world: World, vehicles: Mapping[str, str], speed: float) -> None:
+        self._world, self._vehicles, self._speed = world, vehicles, speed
+        acks: Events[Letter[ClockAck]] = Events(letters(ClockAck), capacity=256, on_lost=lambda _: None)
+        self._lockstep = Lockstep(acks)
+        self._pace = Pace()
+        self._faults: Events[Letter[SimFault]] = Events(letters(SimFault), capacity=16, on_lost=lambda _: None)
+        bus.subscribe(keys.clock_acks, acks)
+        bus.subscribe(keys.sim_fault, self._faults)
+        self._ticks = bus.publisher(keys.clock, qos=Qos.EVENT)
+        self._truths = bus.publisher(keys.sim_truth, qos=Qos.STATE)
+
+    async def run(self) -> None:
+        """Advance until cancelled."""
+        number = 0
+        while True:
+            number += 1
+            self._take_faults()
+            self._world.advance(number * SLICE_NS)
+            self._publish(number)
+            if self._speed:
+                await self._pace.wait(SLICE_NS / 1e9, self._speed)
+                continue
+            await self._lockstep.wait(number)
+            await self._collect_datagrams()
+            if self._lockstep.idle:
+                await self._pace.wait(SLICE_NS / 1e9, 1.0)
+
+    def _take_faults(self) -> None:
+        for letter in self._faults.take():
+            try:
+                self._world.set_fault(letter.message.name, letter.message.on)
+            except ValueError as error:
+                print(f"fault refused: {error}")
+
+    def _publish(self, number: int) -> None:
+        counts = self._world.counts()
+        sent = {robot: counts[vehicle].sent for robot, vehicle in self._vehicles.items()}
+        self._ticks.put(ClockTick(slice=number, now_ns=self._world.time_ns, datagrams=sent))
+        if number % TRUTH_EVERY == 0:
+            self._truths.put(self._truth())
+
+    def _truth(self) -> SimTruth:
+        truth = self._world.truth()
+        poses = {
+            robot: (t.x_m, t.y_m, t.z_m, t.yaw_rad)
+            for robot, vehicle in self._vehicles.items()
+            if (t := truth.robots[vehicle])
+        }
+        return SimTruth(at_ns=truth.time_ns, poses=poses, targets={"victim": (truth.victim_x_m, truth.victim_y_m, 0.0)})
+
+    async def _collect_datagrams(self) -> None:
+        """Take in what the adapters sent before they acknowledged; loopback delivers at once, so one look is enough."""
+        self._world.poll()
+        await turn()
+
+
+async def main(context: ChildContext) -> None:
+    """Open the world and the bus, and run until asked to stop."""
+    spec = context.spec(SimulationSpec)
+    try:
+        world = World(spec.world)
+    except ValueError as error:
+        raise UsageError(f"the simulated world can't be made: {error}") from error
+    with world:
+        async with ZenohBus("simulation", [spec.router]) as bus:
+            keys = Keys(spec.crew)
+            simulation = Simulation(bus, keys, world, spec.vehicles, spec.speed)
+            with_token = bus.token(keys.alive("simulation"))
+            context.ready()
+            try:
+                await simulation.run()
+            finally:
+                with_token.close()
+
+
+if __name__ == "__main__":
+    run_child(main)
