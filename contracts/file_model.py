@@ -44,10 +44,21 @@ class FileModel(BaseModel):
         for key in data.keys() - set(valid):
             facts = {"observed": repr(key), "allowed": ", ".join(valid), "nearest": nearest_name(key, valid)}
             info.context.add(data.key_marks[key], f"unknown key of {cls.called}", **facts)
-        return {key: value for key, value in data.items() if key in valid}
+        return {
+            key: value for key, value in data.items() if key in valid and not _is_empty(cls, key, data, info.context)
+        }
 
 
 M = TypeVar("M", bound=FileModel)
+
+
+def _is_empty(model: type[FileModel], key: str, data: Block, problems: Problems) -> bool:
+    """Whether an optional key has no value, which is reported: it could mean none, or be forgotten."""
+    field = next(field for name, field in model.model_fields.items() if (field.alias or name) == key)
+    if data[key] is not None or field.is_required():
+        return False
+    problems.add(data.key_marks[key], f"{key!r} of {model.called} has no value", fix="write one, or remove the key")
+    return True
 
 
 def validate(model: type[M], root: Block, problems: Problems) -> M | None:
