@@ -127,10 +127,10 @@ class World:
         pairs = self._data.contact.geom.tolist()
         for counter in self._contacts.values():
             counter.update(pairs)
-        if tick % FRAME_TICKS == 0:
-            self._take_frame()
         for autopilot in self._autopilots.values():
             autopilot.tick(self.time_ns)
+        if tick % FRAME_TICKS == 0:
+            self._take_frame()
 
     def _take_frame(self) -> None:
         if self._faults.is_on("missed_detection"):

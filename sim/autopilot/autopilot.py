@@ -110,6 +110,10 @@ class Autopilot(ABC):
     @abstractmethod
     def disarm(self, *, force: bool) -> Outcome: ...
 
+    def is_ground(self, heartbeat: Any) -> bool:
+        """Whether the link-loss failsafe counts this heartbeat."""
+        return bool(heartbeat.get_srcSystem() == GROUND_SYSTEM)
+
     @abstractmethod
     def supervise(self) -> None:
         """Failsafes and completion of manoeuvres, once each tick."""
@@ -163,7 +167,7 @@ class Autopilot(ABC):
         self._texts.clear()
 
     def _on_heartbeat(self, message: Any) -> None:
-        if message.get_srcSystem() == GROUND_SYSTEM:
+        if self.is_ground(message):
             self._ground_heard_ns = self.time_ns
 
     def _on_command(self, message: Any) -> None:

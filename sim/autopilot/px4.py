@@ -112,6 +112,8 @@ class Px4Quadcopter(Autopilot):
         found = super().problems()
         if self._battery_critical():
             found.append("low battery")
+        if self._link_lost():
+            found.append("no ground station connected")
         return found
 
     def report_target(self, detection: Detection) -> None:
@@ -132,13 +134,15 @@ class Px4Quadcopter(Autopilot):
             )
         )
 
+    def is_ground(self, heartbeat: Any) -> bool:
+        """PX4 counts every ground station, whatever its system id."""
+        return super().is_ground(heartbeat) or bool(heartbeat.type == mavlink.MAV_TYPE_GCS)
+
     # Commands.
 
     def arm(self) -> Outcome:
         if not self.armed:
             problems = self.problems()
-            if self._link_lost():
-                problems.append("no ground station connected")
             if problems:
                 return rejected(f"Arming denied: {problems[0]}")
         return self._change(Event.ARM)

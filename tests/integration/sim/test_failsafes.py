@@ -45,6 +45,18 @@ def test_arming_needs_the_ground() -> None:
         assert ground.texts(IRIS) == ["Arming denied: no ground station connected"]
 
 
+def test_ground_stations_are_told_by_system_id_or_for_px4_by_type() -> None:
+    with Ground(heartbeat=False) as ground:
+        frame = mavlink.MAVLink_heartbeat_message(6, 8, 0, 0, 4, 3).pack(mavlink.MAVLink(None, 245, 190))
+        ground.send_bytes("iris", frame)
+        assert ground.command(IRIS, 400, 1) == 0
+        frame = mavlink.MAVLink_heartbeat_message(18, 8, 0, 0, 4, 3).pack(mavlink.MAVLink(None, 200, 191))
+        for _ in range(7):
+            ground.send_bytes("iris", frame)
+            ground.run(1.0)
+        assert not ground.last(IRIS, "SYS_STATUS").onboard_control_sensors_health & 0x10000000
+
+
 def test_low_battery_lands_and_then_refuses_to_arm() -> None:
     with Ground() as ground:
         ground.take_off(2.0)
