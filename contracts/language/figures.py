@@ -1,0 +1,95 @@
+"""Single figures: signed numbers in digits or words, in metres. A figure in any other unit is not read at all."""
+
+from typing import NamedTuple
+
+from crew.contracts.language.tokens import Shape, Token
+from crew.contracts.language.words import DIGIT_WORDS, METRES, OTHER_UNITS, TENS_WORDS
+
+_SIGNS = {"minus": -1.0, "negative": -1.0, "plus": 1.0}
+_TAINTED = frozenset(("%", "/", "*", "^", "$", "#", "'"))
+
+
+class Figure(NamedTuple):
+    """A number and the token after it."""
+
+    value: float
+    after: int
+    metres: bool
+    """Whether the unit was said."""
+
+
+def norm_at(tokens: list[Token], at: int) -> str:
+    """A token's text, or nothing beyond the ends."""
+    return tokens[at].norm if 0 <= at < len(tokens) else ""
+
+
+def skip(tokens: list[Token], at: int, *words: str) -> int:
+    """The next position, past one of the words if it stands here."""
+    return at + 1 if norm_at(tokens, at) in words else at
+
+
+def is_numeral(tokens: list[Token], at: int) -> bool:
+    """Whether a token carries a number, in digits or in words."""
+    token = tokens[at]
+    return token.shape is Shape.NUMBER or token.norm in DIGIT_WORDS or token.norm in TENS_WORDS
+
+
+def figure(tokens: list[Token], at: int) -> Figure | None:
+    """A signed number with an optional unit of metres."""
+    sign, at = _sign(tokens, at)
+    found = _magnitude(tokens, at)
+    if found is None:
+        return None
+    value, after = found
+    metres = norm_at(tokens, after) in METRES
+    after += metres
+    if _tainted(tokens, after):
+        return None
+    return Figure(sign * value, after, metres)
+
+
+def _sign(tokens: list[Token], at: int) -> tuple[float, int]:
+    word = norm_at(tokens, at)
+    if word in _SIGNS:
+        return _SIGNS[word], at + 1
+    if word in ("-", "+") and at + 1 < len(tokens) and tokens[at + 1].start == tokens[at].end:
+        glued = at > 0 and tokens[at - 1].end == tokens[at].start and tokens[at - 1].shape is not Shape.MARK
+        if not glued:
+            return (-1.0 if word == "-" else 1.0), at + 1
+    return 1.0, at
+
+
+def _magnitude(tokens: list[Token], at: int) -> tuple[float, int] | None:
+    if at >= len(tokens):
+        return None
+    token = tokens[at]
+    if token.shape is Shape.NUMBER:
+        return float(token.norm), at + 1
+    if token.norm in TENS_WORDS:
+        unit = DIGIT_WORDS.get(norm_at(tokens, at + 1), 0)
+        joined = 0 < unit < 10
+        return _with_decimals(tokens, TENS_WORDS[token.norm] + (unit if joined else 0), at + 1 + joined)
+    if token.norm in DIGIT_WORDS:
+        return _with_decimals(tokens, DIGIT_WORDS[token.norm], at + 1)
+    return None
+
+
+def _with_decimals(tokens: list[Token], whole: int, at: int) -> tuple[float, int]:
+    """`five point two five`."""
+    digits = ""
+    if norm_at(tokens, at) == "point":
+        end = at + 1
+        while (digit := DIGIT_WORDS.get(norm_at(tokens, end), 10)) < 10:
+            digits, end = digits + str(digit), end + 1
+        at = end if digits else at
+    return float(f"{whole}.{digits or 0}"), at
+
+
+def _tainted(tokens: list[Token], at: int) -> bool:
+    """Whether what follows changes the number: another unit, a fraction, an odd character."""
+    if at >= len(tokens):
+        return False
+    token = tokens[at]
+    if token.norm in OTHER_UNITS or token.shape is Shape.ODD:
+        return True
+    return token.norm in _TAINTED or (token.shape is Shape.NUMBER and tokens[at - 1].end == token.start)

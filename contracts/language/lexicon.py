@@ -1,0 +1,286 @@
+"""The words of one crew: names, aliases, class words and action words, with everything that each can mean."""
+
+from collections.abc import Iterable, Iterator, Mapping
+from itertools import product
+
+import msgspec
+
+from crew.contracts.contract import Contract, Step
+from crew.contracts.language.inflect import Form, inflections, plurals
+from crew.contracts.language.mention import MentionKind, StepRef
+from crew.contracts.language.templates import fixed_phrases, opening_phrases
+from crew.contracts.language.tokens import Token, tokenize
+from crew.contracts.language.words import (
+    FUNCTION_WORDS,
+    PLACE_NOUNS,
+    REQUESTER,
+    ROBOT_WORDS,
+    ROLE_ORDER,
+    SELF_WORDS,
+    ZONE_NOUNS,
+    Role,
+)
+from crew.contracts.plan import SlotValue, Zone
+from crew.contracts.site import Rules
+from crew.contracts.skill import Kind, Skill
+
+Words = tuple[str, ...]
+
+
+class Entry(msgspec.Struct, frozen=True, kw_only=True):
+    """What a phrase names, or does."""
+
+    words: Words
+    role: Role = Role.MENTION
+    kind: MentionKind = MentionKind.UNKNOWN
+    name: str = ""
+    values: tuple[SlotValue, ...] = ()
+    plural: bool = False
+    means: tuple[StepRef, ...] = ()
+    form: Form = Form.BASE
+    modifiers: frozenset[str] = frozenset()
+    """Adjectives that other aliases of the same thing carry: harmless in front of any of them."""
+    near_is_at: bool = False
+    """Robots stop beside it anyway, so that "near" says nothing more."""
+
+
+class Lexicon(msgspec.Struct, frozen=True, kw_only=True):
+    """The phrases of one crew by first word, longest first; within one length, names before function words."""
+
+    names: Mapping[str, tuple[Entry, ...]]
+    functions: Mapping[str, tuple[Entry, ...]]
+    special: Mapping[str, tuple[Entry, ...]]
+    """Function words that hold only before a fitting word (`start searching`, `have the drone land`)."""
+    area: Zone
+    reports: Mapping[str, str]
+    """The one run-time value that a skill reports, by skill."""
+    members: Mapping[str, frozenset[str]]
+    """The skills that each robot has."""
+    robots: tuple[str, ...]
+    zone_steps: frozenset[tuple[str, str]]
+    """Contract steps that take a zone."""
+    object_steps: frozenset[tuple[str, str]]
+    """Contract steps of contracts that handle an object."""
+    preempting: frozenset[str]
+    """Contracts that end what the robots are doing."""
+
+    def longest(self, tokens: list[Token], at: int) -> Entry | None:
+        """The longest phrase that starts here; a name wins over a function word of the same length."""
+        name = match(self.names, tokens, at)
+        function = match(self.functions, tokens, at)
+        if name is None or function is None:
+            return name or function
+        return function if len(function.words) > len(name.words) else name
+
+
+def match(table: Mapping[str, tuple[Entry, ...]], tokens: list[Token], at: int) -> Entry | None:
+    """The longest entry of a table that starts at a token."""
+    for entry in table.get(tokens[at].norm, ()):
+        end = at + len(entry.words)
+        if end <= len(tokens) and all(tokens[at + k].norm == word for k, word in enumerate(entry.words)):
+            return entry
+    return None
+
+
+def build_lexicon(rules: Rules) -> Lexicon:
+    """Collect the crew's words. Costs milliseconds; see `lexicon_of` for a cached one."""
+    entries = [*_entities(rules), *_actions(rules)]
+    plain = {role: phrases for role, phrases in FUNCTION_WORDS.items() if role not in ROLE_ORDER}
+    special = {role: FUNCTION_WORDS[role] for role in ROLE_ORDER}
+    return Lexicon(
+        names=_index(_unique(entries)),
+        functions=_index(_function_entries(plain)),
+        special=_index(_function_entries(special)),
+        area=rules.crew.area,
+        reports=_reports(rules),
+        members={r.name: frozenset(s.name for s in k.skills) for r in rules.crew.robots if (k := rules.kinds[r.kind])},
+        robots=tuple(r.name for r in rules.crew.robots),
+        zone_steps=frozenset(_steps_using(rules, "zone", own=True)),
+        object_steps=frozenset(_steps_using(rules, "object", own=False)),
+        preempting=frozenset(c.name for c in rules.contracts.values() if c.preempts),
+    )
+
+
+def lexicon_of(rules: Rules) -> Lexicon:
+    """The lexicon of these rules, built once and kept with them."""
+    cached = rules.__dict__.get("_lexicon")
+    if not isinstance(cached, Lexicon):
+        cached = rules.__dict__["_lexicon"] = build_lexicon(rules)
+    return cached
+
+
+def words_of(phrase: str) -> Words:
+    """A name or alias as the tokens that a request would show, without a leading article."""
+    words = tuple(t.norm for t in tokenize(phrase))
+    return words[1:] if len(words) > 1 and words[0] in ("the", "a", "an") else words
+
+
+def _variants(phrase: str) -> Iterator[Words]:
+    """A name's spellings: as written, and with letters and digits apart (`tb3`, `tb 3`)."""
+    words = words_of(phrase)
+    yield words
+    apart = tuple(part for word in words for part in _split_digits(word))
+    if apart != words:
+        yield apart
+
+
+def _split_digits(word: str) -> tuple[str, ...]:
+    stem = word.rstrip("0123456789")
+    return (stem, word[len(stem) :]) if len(stem) > 1 and stem != word else (word,)
+
+
+def _entities(rules: Rules) -> Iterator[Entry]:
+    yield from _robots(rules)
+    crew = rules.crew
+    for place in crew.locations:
+        yield from _named(MentionKind.LOCATION, place.name, place.name, place.aliases)
+    for zone in crew.zones:
+        yield from _named(MentionKind.ZONE, zone.name, zone.zone, zone.aliases)
+    for thing in crew.objects:
+        yield from _named(MentionKind.OBJECT, thing.name, thing.name, thing.aliases)
+    for value in crew.values:
+        extra = SELF_WORDS if value.name == REQUESTER else ()
+        near = value.standoff_m > 0
+        yield from _named(MentionKind.VALUE, value.name, value.name, (*value.aliases, *extra), near)
+    for zone in crew.zones:
+        yield from _zone_noun_variants(zone.name, zone.zone, (zone.name, *zone.aliases))
+
+
+def _named(
+    kind: MentionKind, name: str, value: SlotValue, aliases: Iterable[str], near: bool = False
+) -> Iterator[Entry]:
+    spellings = list(dict.fromkeys(words for phrase in (name, *aliases) for words in _variants(phrase)))
+    heads = {words[0] for words in spellings if len(words) == 1}
+    modifiers = frozenset(w for words in spellings if words[-1] in heads for w in words[:-1])
+    for words in spellings:
+        yield Entry(words=words, kind=kind, name=name, values=(value,), modifiers=modifiers, near_is_at=near)
+
+
+def _zone_noun_variants(name: str, zone: Zone, phrases: Iterable[str]) -> Iterator[Entry]:
+    """`northern half` also answers to `northern part`, unless another zone bears that name."""
+    for phrase in phrases:
+        words = words_of(phrase)
+        if len(words) > 1 and words[-1] in ZONE_NOUNS:
+            for noun in ZONE_NOUNS:
+                yield Entry(words=(*words[:-1], noun), kind=MentionKind.ZONE, name=name, values=(zone,))
+
+
+def _robots(rules: Rules) -> Iterator[Entry]:
+    crew = rules.crew
+    for robot in crew.robots:
+        for words in dict.fromkeys(w for phrase in (robot.name, *robot.aliases) for w in _variants(phrase)):
+            yield Entry(words=words, kind=MentionKind.ROBOT, name=robot.name, values=(robot.name,))
+    for kind in rules.kinds.values():
+        members = tuple(r.name for r in crew.robots if r.kind == kind.name)
+        if members:
+            yield from _class_words((kind.name, *kind.aliases), members)
+    if crew.robots:
+        yield from _class_words(ROBOT_WORDS, tuple(r.name for r in crew.robots))
+
+
+def _class_words(phrases: Iterable[str], members: tuple[str, ...]) -> Iterator[Entry]:
+    name = " or ".join(members)
+    for words in dict.fromkeys(w for phrase in phrases for w in _variants(phrase)):
+        yield Entry(words=words, kind=MentionKind.ROBOT_CLASS, name=name, values=members)
+        for many in plurals(words):
+            yield Entry(words=many, kind=MentionKind.ROBOT_CLASS, name=name, values=members, plural=True)
+
+
+def _actions(rules: Rules) -> Iterator[Entry]:
+    meanings: dict[Words, dict[StepRef, None]] = {}
+    for phrase, ref in _word_meanings(rules):
+        meanings.setdefault(words_of(phrase), {}).setdefault(ref)
+    for words, refs in meanings.items():
+        for form, spelled in inflections(words):
+            yield _action(spelled, tuple(refs), form)
+    for contract in rules.contracts.values():
+        for phrase in fixed_phrases(contract.examples):
+            words = words_of(phrase)
+            refs = {r: None for known, rs in meanings.items() if known == words[: len(known)] for r in rs}
+            mine = tuple(r for r in refs if r.contract == contract.name)
+            if mine and words not in meanings:
+                yield _action(words, mine, Form.BASE)
+        for phrase in opening_phrases(contract.examples):
+            words = words_of(phrase)
+            if words and not any(word in heads for heads in meanings for word in words) and words[0] not in _HARMLESS:
+                yield _action(words, tuple(_asked_refs(contract)), Form.BASE)
+
+
+_HARMLESS = frozenset(w for phrases in FUNCTION_WORDS.values() for phrase in phrases for w in phrase.split()[:1])
+
+
+def _action(words: Words, means: tuple[StepRef, ...], form: Form) -> Entry:
+    return Entry(words=words, kind=MentionKind.ACTION, name=" ".join(words), means=means, form=form)
+
+
+def _word_meanings(rules: Rules) -> Iterator[tuple[str, StepRef]]:
+    """Every action word with one thing that it can mean."""
+    present = [rules.kinds[r.kind] for r in rules.crew.robots if r.kind in rules.kinds]
+    skills = {s.name: s for kind in present for s in kind.skills}
+    used = set()
+    for contract in rules.contracts.values():
+        for step, call in _calls(contract):
+            skill = skills.get(call)
+            used.add(call)
+            yield from ((word, StepRef(contract.name, step.name, call, True)) for word in step.words)
+            own = frozenset(step.words)
+            words = skill.words if skill is not None else ()
+            yield from ((w, StepRef(contract.name, step.name, call)) for w in words if w not in own)
+    for name, skill in skills.items():
+        if name not in used:
+            yield from ((word, StepRef("", "", name)) for word in skill.words)
+
+
+def _calls(contract: Contract) -> Iterator[tuple[Step, str]]:
+    for step in contract.steps:
+        yield from ((step, name) for name in dict.fromkeys(pattern.skill for pattern in step.do))
+
+
+def _asked_refs(contract: Contract) -> Iterator[StepRef]:
+    return (
+        StepRef(contract.name, step.name, call, True) for step, call in _calls(contract) if step.name in contract.asks
+    )
+
+
+def _reports(rules: Rules) -> dict[str, str]:
+    found: dict[str, str] = {}
+    for skill in _all_skills(rules.kinds.values()):
+        if len(skill.reports) == 1 and rules.crew.value(skill.reports[0]) is not None:
+            found[skill.name] = skill.reports[0]
+    return found
+
+
+def _all_skills(kinds: Iterable[Kind]) -> Iterator[Skill]:
+    return (skill for kind in kinds for skill in kind.skills)
+
+
+def _steps_using(rules: Rules, slot_type: str, *, own: bool) -> Iterator[tuple[str, str]]:
+    """Steps whose calls take a slot of the type, or (not `own`) all steps of a contract with such a slot."""
+    for contract, step in ((c, s) for c in rules.contracts.values() for s in c.steps):
+        slots = [s.name for s in contract.slots if slot_type in s.types]
+        refs = (str(v) for pattern in step.do for v in pattern.args.values())
+        if slots and (not own or any(r == f"${s}" or r.startswith(f"${s}.") for r, s in product(list(refs), slots))):
+            yield contract.name, step.name
+
+
+def _function_entries(table: Mapping[Role, Iterable[str]]) -> list[Entry]:
+    return [Entry(words=tuple(p.split()), role=role, name=p) for role, phrases in table.items() for p in phrases]
+
+
+def _unique(entries: Iterable[Entry]) -> list[Entry]:
+    """The first entry of each phrase, except that a phrase may be both a name and an action."""
+    kept: dict[tuple[Words, bool], Entry] = {}
+    for entry in entries:
+        kept.setdefault((entry.words, entry.kind is MentionKind.ACTION), entry)
+    return list(kept.values())
+
+
+def _index(entries: Iterable[Entry]) -> dict[str, tuple[Entry, ...]]:
+    table: dict[str, list[Entry]] = {}
+    for entry in entries:
+        if entry.words:
+            table.setdefault(entry.words[0], []).append(entry)
+    return {first: tuple(sorted(found, key=lambda e: -len(e.words))) for first, found in table.items()}
+
+
+__all__ = ["PLACE_NOUNS", "Entry", "Lexicon", "build_lexicon", "lexicon_of", "match", "words_of"]

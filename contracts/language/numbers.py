@@ -1,0 +1,278 @@
+"""The grammar of points, ranges and altitudes. It reads what is written and never clamps, rounds or completes a figure.
+
+World ENU, metres. A range on one axis alone spans the operational area on the other.
+"""
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+from crew.contracts.language.figures import Figure, figure, norm_at, skip
+from crew.contracts.language.mention import MentionKind
+from crew.contracts.language.tokens import Token
+from crew.contracts.language.words import PLACE_NOUNS, ZONE_NOUNS
+from crew.contracts.plan import SlotValue, Spot, Zone
+
+_HEIGHT_NOUNS = frozenset("altitude height elevation alt".split())
+_HEIGHT_TAILS = (
+    ("above", "the", "ground"), ("above", "ground"), ("of", "altitude"), ("of", "height"), ("in", "altitude"),
+    ("high",), ("altitude",), ("height",), ("up",), ("agl",),
+)  # fmt: skip
+_NOT_HEIGHT = frozenset(
+    "away from north south east west of per left right before behind ahead radius wide long apart around x y".split()
+)
+_FRAMES = frozenset((*ZONE_NOUNS, "rectangle", "box", "square", "strip", "range", "corners"))
+_FRAME_LINKS = frozenset(("with", "where", "of", "between", "from", ",", ":", "for", "bounded", "by", "at", "in"))
+_JOINTS = (",", ";", "and", "&")
+_BRACKETS = {"(": ")", "[": "]"}
+_OTHER_AXIS = {"x": "y", "y": "x"}
+
+Interval = tuple[float, float]
+
+
+class Figures(NamedTuple):
+    """Something said in figures: the tokens `first` up to `after`."""
+
+    first: int
+    after: int
+    kind: MentionKind
+    value: SlotValue
+    name: str
+
+
+class _Range(NamedTuple):
+    axes: str
+    span: Interval
+    after: int
+
+
+def read_figures(tokens: list[Token], area: Zone, takes_zone: Callable[[int], bool]) -> list[Figures]:
+    """All points, zones and altitudes in figures. `takes_zone(at)`: whether the action before a token takes a zone."""
+    found: list[Figures] = []
+    at = 0
+    while at < len(tokens):
+        hit = _zone(tokens, at, area, takes_zone) or _altitude(tokens, at) or _point_mention(tokens, at)
+        if hit is not None and hit.kind is MentionKind.ZONE:
+            hit = _with_frame(tokens, hit, found[-1].after if found else 0)
+        if hit is not None:
+            found.append(hit)
+        at = at + 1 if hit is None else hit.after
+    return found
+
+
+def show_zone(zone: Zone) -> str:
+    return f"x {zone.x_min:g} to {zone.x_max:g}, y {zone.y_min:g} to {zone.y_max:g}"
+
+
+def _zone(tokens: list[Token], at: int, area: Zone, takes_zone: Callable[[int], bool]) -> Figures | None:
+    corners = _corners(tokens, at, takes_zone)
+    if corners is not None:
+        return corners
+    first = _range(tokens, at)
+    if first is None:
+        return None
+    spans = dict.fromkeys(first.axes, first.span)
+    after = first.after
+    if len(first.axes) == 1:
+        second = _range(tokens, skip(tokens, after, *_JOINTS)) or _range(tokens, skip(tokens, after + 1, *_JOINTS))
+        if second is not None and second.axes == _OTHER_AXIS[first.axes]:
+            spans[second.axes] = second.span
+            after = second.after
+    x, y = spans.get("x", (area.x_min, area.x_max)), spans.get("y", (area.y_min, area.y_max))
+    zone = Zone(x[0], x[1], y[0], y[1])
+    return Figures(at, after, MentionKind.ZONE, zone, show_zone(zone))
+
+
+def _range(tokens: list[Token], at: int) -> _Range | None:
+    """One range with the axis or axes that it is for, named before or behind it."""
+    axes, after = _axes(tokens, skip(tokens, at, "for", "in", "on"))
+    if axes:
+        span = _span(tokens, skip(tokens, after, ":", "=", "in", "is", "range", "ranges", "axis"), opened=True)
+        return None if span is None else _Range(axes, span[0], span[1])
+    labelled = _labelled_span(tokens, at)
+    if labelled is not None:
+        return labelled
+    span = _span(tokens, at, opened=False)
+    if span is None or norm_at(tokens, span[1]) not in ("in", "on", "along", "for"):
+        return None
+    axes, after = _axes(tokens, skip(tokens, span[1] + 1, "the"))
+    return _Range(axes, span[0], skip(tokens, after, "axis", "axes", "direction", "directions")) if axes else None
+
+
+def _axes(tokens: list[Token], at: int) -> tuple[str, int]:
+    """`x`, `y`, `x and y`, `both axes`."""
+    word = norm_at(tokens, at)
+    if word in ("both", "each"):
+        after = skip(tokens, at + 1, "axes", "axis", "directions", "coordinates")
+        if after > at + 1:
+            return "xy", after
+        word, at = norm_at(tokens, at + 1), at + 1
+    if word not in _OTHER_AXIS:
+        return "", at
+    if norm_at(tokens, at + 1) in ("and", ",", "&") and norm_at(tokens, at + 2) == _OTHER_AXIS[word]:
+        if figure(tokens, skip(tokens, at + 3, "=", ":")) is None or norm_at(tokens, at + 1) == "and":
+            return "xy", at + 3
+    return word, skip(tokens, at + 1, "axis", "coordinate", "coordinates")
+
+
+def _span(tokens: list[Token], at: int, *, opened: bool) -> tuple[Interval, int] | None:
+    """`from a to b`, `between a and b`, `[a, b]`; `a to b` only behind an axis (`opened`)."""
+    opener = norm_at(tokens, at)
+    if opener in ("from", "between"):
+        links = ("and", "to", "-") if opener == "between" else ("to", "until", "till", "through", "-", "up")
+    elif opener in _BRACKETS and opened:
+        links = (",", ";", "to", "-")
+    elif opened:
+        opener, links, at = "", ("to", "-", "through"), at - 1
+    else:
+        return None
+    low = figure(tokens, at + 1)
+    if low is None or norm_at(tokens, low.after) not in links:
+        return None
+    high = figure(tokens, skip(tokens, low.after + 1, "to") if norm_at(tokens, low.after) == "up" else low.after + 1)
+    if high is None:
+        return None
+    after = high.after
+    if opener in _BRACKETS:
+        if norm_at(tokens, after) != _BRACKETS[opener]:
+            return None
+        after += 1
+    return _ordered(low.value, high.value), after
+
+
+def _labelled_span(tokens: list[Token], at: int) -> _Range | None:
+    """`from x = 0 to x = 4`."""
+    if norm_at(tokens, at) not in ("from", "between"):
+        return None
+    low = _labelled(tokens, at + 1)
+    if low is None or norm_at(tokens, low[1].after) not in ("to", "and"):
+        return None
+    high = _labelled(tokens, low[1].after + 1)
+    if high is None or high[0] != low[0]:
+        return None
+    return _Range(low[0], _ordered(low[1].value, high[1].value), high[1].after)
+
+
+def _labelled(tokens: list[Token], at: int) -> tuple[str, Figure] | None:
+    """`x = 3`, `x minus two`, `x: 3`, `x is 3`."""
+    axis = norm_at(tokens, at)
+    if axis not in _OTHER_AXIS:
+        return None
+    after = skip(tokens, at + 1, "coordinate")
+    value = figure(tokens, skip(tokens, after, "=", ":", "is", "equals", "at", "of"))
+    return None if value is None else (axis, value)
+
+
+def _corners(tokens: list[Token], at: int, takes_zone: Callable[[int], bool]) -> Figures | None:
+    """`from (0, 0) to (4, 4)`, `between (0, 0) and (4, 4)`, `the box (0, 0) to (4, 4)`."""
+    opener = norm_at(tokens, at)
+    framed = opener == "between" or norm_at(tokens, at - 1) in _FRAMES
+    first = _point(tokens, at + 1 if opener in ("from", "between") else at)
+    if first is None or norm_at(tokens, first[1]) not in ("to", "and", "-", ","):
+        return None
+    second = _point(tokens, first[1] + 1)
+    if second is None or not (framed or (opener == "from" and takes_zone(at))):
+        return None
+    (x_min, x_max), (y_min, y_max) = _ordered(first[0].x, second[0].x), _ordered(first[0].y, second[0].y)
+    zone = Zone(x_min, x_max, y_min, y_max)
+    return Figures(at, second[1], MentionKind.ZONE, zone, show_zone(zone))
+
+
+def _with_frame(tokens: list[Token], hit: Figures, floor: int) -> Figures:
+    """Take in the noun that announces the figures: `the area x from ...`, `the box between ...`."""
+    first = hit.first
+    while first - 1 >= floor and norm_at(tokens, first - 1) in _FRAME_LINKS:
+        first -= 1
+    if first - 1 >= floor and norm_at(tokens, first - 1) in _FRAMES:
+        return hit._replace(first=first - 1)
+    return hit
+
+
+def _point_mention(tokens: list[Token], at: int) -> Figures | None:
+    start = at
+    while norm_at(tokens, at) in PLACE_NOUNS or (at > start and norm_at(tokens, at) in ("of", "at", ":", "=", "to")):
+        at += 1
+    bare = at > start or norm_at(tokens, at - 1) in ("to", "at", "towards")
+    found = _point(tokens, at, spaced=bare)
+    if found is None:
+        return None
+    return Figures(start, found[1], MentionKind.POINT, found[0], f"({found[0].x:g}, {found[0].y:g})")
+
+
+def _point(tokens: list[Token], at: int, *, spaced: bool = False) -> tuple[Spot, int] | None:
+    """`(7.5, 4.0)`, `7.5, 4`, `x = 3 y = 4`, and `7.5 4` if `spaced`."""
+    opener = norm_at(tokens, at)
+    inner = at + 1 if opener in _BRACKETS else at
+    first = _labelled(tokens, inner)
+    pair = (
+        _labelled_pair(tokens, inner)
+        if first is not None
+        else _plain_pair(tokens, inner, opener in _BRACKETS or spaced)
+    )
+    if pair is None:
+        return None
+    spot, after = pair
+    if opener in _BRACKETS:
+        return (spot, after + 1) if norm_at(tokens, after) == _BRACKETS[opener] else None
+    return spot, after
+
+
+def _labelled_pair(tokens: list[Token], at: int) -> tuple[Spot, int] | None:
+    first = _labelled(tokens, at)
+    second = None if first is None else _labelled(tokens, skip(tokens, first[1].after, *_JOINTS))
+    if first is None or second is None or first[0] == second[0]:
+        return None
+    values = {first[0]: first[1].value, second[0]: second[1].value}
+    return Spot(values["x"], values["y"]), second[1].after
+
+
+def _plain_pair(tokens: list[Token], at: int, spaced: bool) -> tuple[Spot, int] | None:
+    first = figure(tokens, at)
+    if first is None:
+        return None
+    comma = norm_at(tokens, first.after) in (",", ";")
+    second = figure(tokens, first.after + comma) if comma or spaced else None
+    if second is None or _longer_list(tokens, at, second.after) or (comma and _thousands(tokens, first.after)):
+        return None
+    return Spot(first.value, second.value), second.after
+
+
+def _longer_list(tokens: list[Token], at: int, after: int) -> bool:
+    """Three figures in a row are no point in the plane."""
+    if norm_at(tokens, at - 1) == "," and at > 1 and figure(tokens, at - 2) is not None:
+        return True
+    return figure(tokens, skip(tokens, after, ",", ";", "and")) is not None
+
+
+def _thousands(tokens: list[Token], comma: int) -> bool:
+    """`1,000` is a thousand or a decimal comma: not a point."""
+    tail = tokens[comma + 1]
+    glued = tokens[comma - 1].end == tokens[comma].start and tokens[comma].end == tail.start
+    return glued and tail.norm.isdigit() and (len(tail.norm) == 3 or (len(tail.norm) > 1 and tail.norm[0] == "0"))
+
+
+def _altitude(tokens: list[Token], at: int) -> Figures | None:
+    start = at
+    at = skip(tokens, skip(tokens, at, "at", "from", "to"), "an", "a", "the") if norm_at(tokens, at) != "a" else at
+    if norm_at(tokens, at) in _HEIGHT_NOUNS:
+        value = figure(tokens, skip(tokens, at + 1, "of", "=", ":", "is", "at"))
+        return None if value is None else _height(tokens, start, value.value, value.after)
+    value = figure(tokens, at)
+    if value is None or not value.metres:
+        return None
+    tail = next((t for t in _HEIGHT_TAILS if _stands(tokens, value.after, t)), ())
+    after = value.after + len(tail)
+    if not tail and (at == start or norm_at(tokens, after) in _NOT_HEIGHT):
+        return None
+    return _height(tokens, start, value.value, after)
+
+
+def _height(tokens: list[Token], start: int, value: float, after: int) -> Figures:
+    return Figures(start, after, MentionKind.ALTITUDE, value, f"{value:g} m high")
+
+
+def _stands(tokens: list[Token], at: int, words: tuple[str, ...]) -> bool:
+    return all(norm_at(tokens, at + k) == word for k, word in enumerate(words))
+
+
+def _ordered(a: float, b: float) -> Interval:
+    return (a, b) if a <= b else (b, a)

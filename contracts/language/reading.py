@@ -1,0 +1,146 @@
+"""Reads a request: deterministic, bounded, and never guessing. What it cannot read it names."""
+
+from collections.abc import Iterator
+
+from crew.contracts.language.lexicon import Lexicon
+from crew.contracts.language.mention import Ambiguity, Mention, MentionKind, Reading, Unread
+from crew.contracts.language.phrase import directions, loose_ends, noun_phrases
+from crew.contracts.language.piece import Piece, before
+from crew.contracts.language.reference import governors, orders, participles, place_pronouns, pronouns
+from crew.contracts.language.scan import Scanner
+from crew.contracts.language.scope import contradictions, polarities
+from crew.contracts.language.tokens import Token, tokenize
+from crew.contracts.language.words import Role
+
+MAX_CHARACTERS = 4_000
+
+
+def read_request(text: str, lexicon: Lexicon) -> Reading:
+    """Everything that the request names, with polarity and direction, and everything that was not understood."""
+    if len(text) > MAX_CHARACTERS:
+        return _too_long(text)
+    tokens = tokenize(text)
+    pieces = noun_phrases(Scanner(tokens, lexicon).scan())
+    _everything(pieces, lexicon)
+    _first(pieces)
+    participles(pieces)
+    place_pronouns(pieces)
+    directions(pieces, tokens)
+    loose_ends(pieces)
+    doubts = polarities(pieces, tokens)
+    doubts += pronouns(pieces, tokens, lexicon)
+    directions(pieces, tokens)
+    doubts += contradictions(pieces, tokens)
+    governors(pieces)
+    return _assemble(text, tokens, pieces, doubts)
+
+
+def _too_long(text: str) -> Reading:
+    why = f"the request has {len(text)} characters; at most {MAX_CHARACTERS} are read"
+    span = (MAX_CHARACTERS, len(text))
+    return Reading(
+        text=text[:MAX_CHARACTERS],
+        unread=(Unread(text[MAX_CHARACTERS : MAX_CHARACTERS + 20], span),),
+        ambiguous=(Ambiguity(why, span),),
+    )
+
+
+def _everything(pieces: list[Piece], lexicon: Lexicon) -> None:
+    """`stop everything`: all robots, but only for what ends missions."""
+    for at, piece in enumerate(pieces):
+        if piece.role is Role.EVERYTHING:
+            verb = before(pieces, at)
+            if verb is not None and any(r.contract in lexicon.preempting for r in verb.means):
+                piece.role, piece.kind, piece.every = Role.MENTION, MentionKind.ROBOT_CLASS, True
+                piece.values, piece.name = lexicon.robots, " and ".join(lexicon.robots)
+            else:
+                piece.become(Role.UNREAD)
+
+
+def _first(pieces: list[Piece]) -> None:
+    """`first` says nothing in front of the first verb; elsewhere it would change the order."""
+    acted = False
+    for piece in pieces:
+        acted = acted or piece.is_action
+        if piece.role is Role.FIRST and acted:
+            piece.become(Role.UNREAD)
+
+
+def _assemble(text: str, tokens: list[Token], pieces: list[Piece], doubts: list[Ambiguity]) -> Reading:
+    named = [p for p in pieces if p.kind is not None]
+    index = {id(p): k for k, p in enumerate(named)}
+    pairs = ((index[id(a)], index[id(b)]) for a, b in orders(pieces))
+    return Reading(
+        text=text,
+        mentions=tuple(_mention(text, tokens, p, index) for p in named),
+        unread=tuple(_unread(text, tokens, pieces)),
+        ambiguous=tuple(sorted(doubts, key=lambda d: d.span)),
+        orders=tuple(dict.fromkeys(pairs)),
+    )
+
+
+def _mention(text: str, tokens: list[Token], piece: Piece, index: dict[int, int]) -> Mention:
+    span = _span(tokens, piece)
+    said = text[slice(*span)]
+    return Mention(
+        span=span,
+        text=said,
+        kind=piece.kind or MentionKind.UNKNOWN,
+        name=said if piece.kind is MentionKind.UNKNOWN else piece.name,
+        positive=piece.positive,
+        direction=piece.direction,
+        values=piece.values,
+        every=piece.every,
+        means=piece.means,
+        governor=index.get(id(piece.governor)) if piece.governor is not None else None,
+        bare=piece.bare,
+        aside=piece.aside,
+    )
+
+
+def _unread(text: str, tokens: list[Token], pieces: list[Piece]) -> Iterator[Unread]:
+    for piece in pieces:
+        excluded_unknown = piece.kind is MentionKind.UNKNOWN and not piece.positive
+        if piece.role in (Role.UNREAD, Role.WORD) or excluded_unknown:
+            span = _span(tokens, piece)
+            yield Unread(text[slice(*span)], span)
+
+
+def _span(tokens: list[Token], piece: Piece) -> tuple[int, int]:
+    return tokens[piece.first].start, tokens[piece.after - 1].end
+
+
+def explain_reading(reading: Reading) -> str:
+    """The reading in one plain sentence that a person can confirm."""
+    parts = [*_clauses(reading)]
+    excluded = [m.name for m in reading.excluded]
+    if excluded:
+        parts.append("excluded: " + ", ".join(excluded))
+    if reading.ambiguous:
+        parts.append("unclear: " + ", ".join(a.why for a in reading.ambiguous))
+    if reading.unread:
+        parts.append("not understood: " + ", ".join(f"'{u.word}'" for u in reading.unread))
+    return "; ".join(parts) or "nothing was asked for"
+
+
+def _clauses(reading: Reading) -> Iterator[str]:
+    """One clause for all actions that were asked for, each with what belongs to it, in the order of the request."""
+    clauses: list[list[str]] = [[]]
+    for index, mention in enumerate(reading.mentions):
+        if not mention.positive or (mention.kind is not MentionKind.ACTION and mention.governor is not None):
+            continue
+        words = [mention.name]
+        if mention.kind is MentionKind.ACTION:
+            words += [_shown(m) for m in reading.wanted if m.governor == index]
+        clauses.append(words)
+    said = ", ".join(" ".join(words) for words in clauses if words)
+    if said:
+        yield said
+
+
+def _shown(mention: Mention) -> str:
+    prefix = "" if mention.direction.value == "none" else f"{mention.direction.value} "
+    return prefix + mention.name
+
+
+__all__ = ["MAX_CHARACTERS", "Reading", "explain_reading", "read_request"]

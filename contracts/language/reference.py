@@ -1,0 +1,164 @@
+"""Who does what: pronouns and their antecedents, robots and the verbs they belong to, the order that was asked for."""
+
+from collections.abc import Iterator
+
+from crew.contracts.language.inflect import Form
+from crew.contracts.language.lexicon import Lexicon
+from crew.contracts.language.mention import Ambiguity, Direction, MentionKind
+from crew.contracts.language.piece import PLACE_ROLES, SOFT, Piece, before, behind
+from crew.contracts.language.tokens import Token
+from crew.contracts.language.words import PLACE_NOUNS, Role
+
+_PLACES = (MentionKind.VALUE, MentionKind.LOCATION, MentionKind.POINT)
+_ROBOTS = (MentionKind.ROBOT, MentionKind.ROBOT_CLASS)
+_PEOPLE = frozenset(("him", "her", "his"))
+_PASSED = SOFT | {Role.BE, Role.TO}
+
+Group = tuple[MentionKind, ...]
+
+
+def pronouns(pieces: list[Piece], tokens: list[Token], lexicon: Lexicon) -> list[Ambiguity]:
+    """Give each pronoun its antecedent; a doubtful one makes the request ambiguous."""
+    doubts = []
+    for at, piece in enumerate(pieces):
+        if piece.role is Role.PRONOUN and (why := _resolve(pieces, at, lexicon)):
+            span = (tokens[piece.first].start, tokens[piece.after - 1].end)
+            doubts.append(Ambiguity(f"'{piece.norm}' {why}", span))
+    return doubts
+
+
+def _resolve(pieces: list[Piece], at: int, lexicon: Lexicon) -> str | None:
+    """Resolve one pronoun, or say why it cannot be."""
+    pronoun = pieces[at]
+    earlier = [p for p in pieces[:at] if p.is_entity and p.direction is not Direction.FROM]
+    for group in _groups(pieces, at, lexicon):
+        found = [p for p in earlier if p.kind in group and _able(pieces, at, p, lexicon)]
+        if not found:
+            continue
+        if not found[-1].positive:
+            return f"would refer to {found[-1].name}, which the request excludes"
+        if len({p.name for p in found}) > 1:
+            return "could refer to " + " or ".join(dict.fromkeys(p.name for p in found))
+        pronoun.resolve(found[-1])
+        return None
+    return "refers to nothing that the request names"
+
+
+def _groups(pieces: list[Piece], at: int, lexicon: Lexicon) -> Iterator[Group]:
+    """What a pronoun in this place can stand for, the likeliest first."""
+    pronoun, previous = pieces[at], before(pieces, at)
+    if pronoun.norm in _PEOPLE:
+        yield (MentionKind.VALUE,)
+        return
+    if pronoun.norm == "there" or (previous is not None and previous.role in PLACE_ROLES):
+        yield _PLACES
+        yield (MentionKind.ZONE,)
+        return
+    verb = _verb_of(pieces, at)
+    steps = {(r.contract, r.step) for r in verb.means} if verb is not None else set()
+    if steps & lexicon.object_steps:
+        yield (MentionKind.OBJECT,)
+    if steps & lexicon.zone_steps:
+        yield (MentionKind.ZONE,) if pronoun.norm == "it" else (MentionKind.VALUE,)
+    yield _ROBOTS
+    yield (MentionKind.VALUE,)
+    yield (MentionKind.OBJECT,)
+
+
+def _verb_of(pieces: list[Piece], at: int) -> Piece | None:
+    """The verb whose subject or object stands here."""
+    previous, following = before(pieces, at), behind(pieces, at, _PASSED)
+    if previous is not None and previous.is_action:
+        return previous
+    return following if following is not None and following.is_action else None
+
+
+def _able(pieces: list[Piece], at: int, candidate: Piece, lexicon: Lexicon) -> bool:
+    """Whether a robot that the pronoun could mean has the skill that the verb asks for."""
+    verb = _verb_of(pieces, at)
+    if not candidate.is_robot or verb is None:
+        return True
+    skills = {ref.skill for ref in verb.means}
+    return any(lexicon.members.get(str(name), frozenset()) & skills for name in candidate.values)
+
+
+def place_pronouns(pieces: list[Piece]) -> None:
+    """`its position`, `their location`: the noun adds nothing to the pronoun."""
+    for owner, noun in zip(pieces, pieces[1:], strict=False):
+        if owner.role is Role.PRONOUN and owner.norm in ("its", "their", "his", "her") and noun.norm in PLACE_NOUNS:
+            noun.become(Role.FILLER)
+
+
+def participles(pieces: list[Piece]) -> None:
+    """A past form asks for something only in a passive (`must be searched`) or after `once`."""
+    for at, piece in enumerate(pieces):
+        if piece.is_action and piece.form is Form.PAST:
+            auxiliary = pieces[at - 1] if at and pieces[at - 1].role is Role.BE else None
+            if (auxiliary is not None and auxiliary.norm == "be") or _in_time_clause(pieces, at):
+                if auxiliary is not None:
+                    auxiliary.become(Role.FILLER)
+            else:
+                piece.become(Role.UNREAD)
+    for at, piece in enumerate(pieces):
+        if piece.role is Role.BE:
+            piece.become(Role.FILLER if _ends_where(pieces, at) else Role.UNREAD)
+
+
+def _in_time_clause(pieces: list[Piece], at: int) -> bool:
+    clause = (p.role for p in reversed(pieces[:at]) if p.role in (Role.PUNCTUATION, Role.AFTER, Role.AND))
+    return next(clause, None) is Role.AFTER
+
+
+def _ends_where(pieces: list[Piece], at: int) -> bool:
+    """The verb of `to where the victim is`."""
+    owner = before(pieces, at)
+    if owner is None or not owner.is_entity:
+        return False
+    previous = before(pieces, pieces.index(owner))
+    return previous is not None and previous.role is Role.TO and previous.norm == "to where"
+
+
+def governors(pieces: list[Piece]) -> None:
+    """Tie every mention to the verb that it belongs to."""
+    last: Piece | None = None
+    for at, piece in enumerate(pieces):
+        if piece.is_action:
+            last = piece
+        elif piece.is_robot:
+            piece.governor = _governor_of_robot(pieces, at, last)
+        elif piece.is_entity:
+            piece.governor = last
+
+
+def _governor_of_robot(pieces: list[Piece], at: int, last: Piece | None) -> Piece | None:
+    previous, following = before(pieces, at), behind(pieces, at, _PASSED)
+    if previous is not None and previous.is_action:
+        return previous
+    if previous is not None and previous.role is Role.WITH:
+        return last or next((p for p in pieces[at:] if p.is_action), None)
+    if following is not None and following.is_action:
+        return following
+    if previous is not None and previous.role in (Role.AND, Role.PUNCTUATION):
+        partner = before(pieces, pieces.index(previous))
+        return partner.governor if partner is not None and partner.is_robot else None
+    return None
+
+
+def orders(pieces: list[Piece]) -> Iterator[tuple[Piece, Piece]]:
+    """Pairs of verbs that the request puts in order."""
+    for at, piece in enumerate(pieces):
+        earlier = next((p for p in reversed(pieces[:at]) if p.is_action and p.positive), None)
+        later = [p for p in pieces[at + 1 :] if p.is_action and p.positive]
+        if piece.role is Role.THEN and earlier is not None and later:
+            yield earlier, later[0]
+        elif piece.role is Role.AFTER and later:
+            opening = earlier is None or before(pieces, at, SOFT) in (None,) or _starts_clause(pieces, at)
+            if not opening and earlier is not None:
+                yield later[0], earlier
+            elif len(later) > 1:
+                yield later[0], later[1]
+
+
+def _starts_clause(pieces: list[Piece], at: int) -> bool:
+    previous = before(pieces, at)
+    return previous is None or previous.role in (Role.PUNCTUATION, Role.AND)

@@ -1,0 +1,209 @@
+"""From tokens to pieces: figures first, then the longest known phrase, with the few idioms that need a look ahead."""
+
+from crew.contracts.language.figures import is_numeral
+from crew.contracts.language.lexicon import Entry, Lexicon, match
+from crew.contracts.language.mention import ROBOT_KINDS, MentionKind
+from crew.contracts.language.numbers import Figures, read_figures
+from crew.contracts.language.piece import Piece, of_entry
+from crew.contracts.language.tokens import Shape, Token
+from crew.contracts.language.words import ADVERBS, PARTICLES, Role
+
+_ARTICLES = frozenset(("the", "a", "an", "all", "both", "your", "our", "my", "any"))
+_LIGHT_LINKS = ("and", "to", "by", "with")
+_NOT_BEFORE_VERB = frozenset(("to", "from", "at", "in", "the", "into", "of"))
+_SEPARABLE = PARTICLES | {"is"}
+_MARKS = {
+    "&": Role.AND, "/": Role.ALTERNATIVE, ",": Role.PUNCTUATION, ".": Role.PUNCTUATION, ";": Role.PUNCTUATION,
+    ":": Role.PUNCTUATION, "!": Role.PUNCTUATION, "?": Role.PUNCTUATION, "-": Role.PUNCTUATION,
+    "(": Role.PUNCTUATION, ")": Role.PUNCTUATION, "\u2026": Role.PUNCTUATION,
+}  # fmt: skip
+
+
+class Scanner:
+    """One pass over the tokens of one request."""
+
+    def __init__(self, tokens: list[Token], lexicon: Lexicon) -> None:
+        self.tokens = tokens
+        self.lexicon = lexicon
+        self.pieces: list[Piece] = []
+        self.taken: set[int] = set()
+        """Particles that an earlier verb has taken."""
+
+    def scan(self) -> list[Piece]:
+        figures = {f.first: f for f in read_figures(self.tokens, self.lexicon.area, self._action_takes_zone)}
+        at = 0
+        while at < len(self.tokens):
+            piece = _of_figures(figures[at]) if at in figures else self._piece(at)
+            self.pieces.append(piece)
+            at = piece.after
+        return self.pieces
+
+    def _piece(self, at: int) -> Piece:
+        if at in self.taken:
+            return Piece(at, at + 1, Role.FILLER)
+        token = self.tokens[at]
+        if token.shape is Shape.MARK:
+            return Piece(at, at + 1, _MARKS.get(token.norm, Role.UNREAD), norm=token.norm)
+        if token.shape is Shape.ODD:
+            return Piece(at, at + 1, Role.UNREAD, norm=token.norm)
+        return self._idiom(at) or self._phrase(at) or self._loose(at)
+
+    def _idiom(self, at: int) -> Piece | None:
+        return self._light(at) or self._cause(at) or self._separable(at)
+
+    def _light(self, at: int) -> Piece | None:
+        """`start searching`, `do a search`, `go and find`: the verb that follows is the one that is meant."""
+        entry = self._special(Role.LIGHT, at)
+        if entry is None or (at > 0 and self.tokens[at - 1].norm in _NOT_BEFORE_VERB):
+            return None
+        end = at + len(entry.words)
+        verb = self._past(end, ("out", "ahead"))
+        linked = self._past(verb, _LIGHT_LINKS)
+        if self._action(linked) is not None:
+            return Piece(at, linked, Role.FILLER)
+        return Piece(at, end, Role.FILLER) if self._action(self._past(verb, ("a", "an", "the"))) is not None else None
+
+    def _cause(self, at: int) -> Piece | None:
+        """`have the drone search`, `tell the rover to go`, `send the drone to find`: the robot is to do the rest."""
+        entry = self._special(Role.CAUSE, at)
+        sending = entry is None and self._action(at) is not None
+        if entry is None and not sending:
+            return None
+        start = at + (1 if entry is None else len(entry.words))
+        robot_at = self._past(start, tuple(_ARTICLES))
+        robot = self._name(robot_at)
+        if robot is None or robot.kind not in ROBOT_KINDS:
+            return None
+        end = robot_at + len(robot.words)
+        verb = self._past(self._past(end, ("out", "up", "off", "over")), ("to",))
+        marked = verb > end and self.tokens[verb - 1].norm == "to"
+        action = self._action(self._past(verb, ("go", "and", "then")) if marked else verb)
+        if action is None or (sending and not marked) or self._name_is_place(verb):
+            return None
+        self.taken.update(range(end, verb))
+        return Piece(at, start, Role.FILLER)
+
+    def _name_is_place(self, at: int) -> bool:
+        """A place may be called like a verb; then `send the rover to ...` names the place."""
+        entry = match(self.lexicon.names, self.tokens, at)
+        return entry is not None and entry.kind is not MentionKind.ACTION
+
+    def _separable(self, at: int) -> Piece | None:
+        """`bring the drone down`, `where the victim is`."""
+        for entry in self.lexicon.names.get(self.tokens[at].norm, ()):
+            if entry.kind is MentionKind.ACTION and len(entry.words) == 2 and entry.words[1] in _SEPARABLE:
+                end = self._past_name(at + 1)
+                if at + 1 < end < len(self.tokens) and self.tokens[end].norm == entry.words[1]:
+                    self.taken.add(end)
+                    return of_entry(entry, at, at + 1, False)
+        return None
+
+    def _past_name(self, at: int) -> int:
+        """Past one name and its articles, or `at` if no name stands here."""
+        start = self._past(at, tuple(_ARTICLES))
+        entry = self._name(start)
+        return at if entry is None or entry.kind is MentionKind.ACTION else start + len(entry.words)
+
+    def _phrase(self, at: int) -> Piece | None:
+        entry = self._longest(at)
+        if entry is None:
+            return None
+        end = at + len(entry.words)
+        if entry.role is Role.FILLER and end - at > 1 and self._action(end - 1) is not None:
+            return Piece(at, end - 1, Role.FILLER)  # `i need`, where `need` is an action of this crew
+        if entry.role is Role.WHOEVER:
+            return self._whoever(at, end)
+        return of_entry(entry, at, end, self.tokens[end - 1].possessive)
+
+    def _longest(self, at: int) -> Entry | None:
+        entry = self.lexicon.longest(self.tokens, at)
+        if entry is None:
+            return self._special(Role.BE, at)
+        if entry.role is not Role.MENTION:
+            return entry
+        previous = self.pieces[-1].role if self.pieces else None
+        named = previous in _NAME_FOLLOWS
+        if entry.kind is MentionKind.ACTION:
+            return self._namesake(entry, at, MentionKind.ACTION) if named else entry
+        if not named and len(entry.words) > 1:
+            return self._action(at, len(entry.words) - 1) or entry  # "search area" at the start of a clause
+        return entry if named else self._namesake(entry, at, None)
+
+    def _namesake(self, entry: Entry, at: int, unlike: MentionKind | None) -> Entry:
+        """Where a name and an action are spelled alike, the place in the sentence decides."""
+        alike = (e for e in self.lexicon.names[self.tokens[at].norm] if e.words == entry.words)
+        fits = (e for e in alike if (e.kind is not unlike if unlike else e.kind is MentionKind.ACTION))
+        return next(fits, entry)
+
+    def _whoever(self, at: int, end: int) -> Piece:
+        """`whoever you find`, `anyone` after a verb that finds: the one value that the verb reports."""
+        for verb in range(end, min(end + 5, len(self.tokens))):
+            action = self._action(verb)
+            if action is not None and (value := self._reported(action.means)) is not None:
+                return _value(at, verb + len(action.words), value)
+            if self._connective(verb):
+                break
+        last = next((p for p in reversed(self.pieces) if p.role not in (Role.FOR, Role.FILLER)), None)
+        value = self._reported(last.means) if last is not None and last.is_action else None
+        return Piece(at, end, Role.UNREAD) if value is None else _value(at, end, value)
+
+    def _connective(self, at: int) -> bool:
+        if self.tokens[at].shape is Shape.MARK:
+            return True
+        entry = match(self.lexicon.functions, self.tokens, at)
+        return entry is not None and entry.role not in (Role.FILLER, Role.PRONOUN, Role.DETERMINER)
+
+    def _reported(self, means: tuple[object, ...]) -> str | None:
+        found = {self.lexicon.reports.get(getattr(ref, "skill", "")) for ref in means} - {None}
+        return found.pop() if len(found) == 1 else None
+
+    def _loose(self, at: int) -> Piece:
+        token = self.tokens[at]
+        unread = is_numeral(self.tokens, at) or token.norm in ADVERBS or token.norm.endswith("ly")
+        return Piece(at, at + 1, Role.UNREAD if unread else Role.WORD, norm=token.norm, possessive=token.possessive)
+
+    def _special(self, role: Role, at: int) -> Entry | None:
+        """A function word of a role that holds only before a fitting word."""
+        found = (e for e in self.lexicon.special.get(self.tokens[at].norm, ()) if e.role is role)
+        fits = (e for e in found if [t.norm for t in self.tokens[at : at + len(e.words)]] == list(e.words))
+        return next(fits, None)
+
+    def _name(self, at: int) -> Entry | None:
+        return match(self.lexicon.names, self.tokens, at) if at < len(self.tokens) else None
+
+    def _action(self, at: int, shorter_than: int = 99) -> Entry | None:
+        """The longest action phrase that starts here, up to a number of words."""
+        if at >= len(self.tokens):
+            return None
+        for entry in self.lexicon.names.get(self.tokens[at].norm, ()):
+            size = len(entry.words)
+            fits = entry.kind is MentionKind.ACTION and size <= shorter_than
+            if fits and [t.norm for t in self.tokens[at : at + size]] == list(entry.words):
+                return entry
+        return None
+
+    def _past(self, at: int, words: tuple[str, ...]) -> int:
+        """The next position, past one of the words if it stands here."""
+        return at + 1 if at < len(self.tokens) and self.tokens[at].norm in words else at
+
+    def _action_takes_zone(self, at: int) -> bool:
+        for back in range(at - 1, -1, -1):
+            entry = self._action(back)
+            if entry is not None:
+                return any((ref.contract, ref.step) in self.lexicon.zone_steps for ref in entry.means)
+        return False
+
+
+_NAME_FOLLOWS = frozenset(
+    (Role.DETERMINER, Role.QUANTIFIER, Role.TO, Role.AT, Role.OVER, Role.NEAR, Role.FROM, Role.OF)
+)
+
+
+def _of_figures(found: Figures) -> Piece:
+    return Piece(
+        found.first, found.after, Role.MENTION, kind=found.kind, name=found.name, values=(found.value,), norm=found.name
+    )
+
+
+def _value(first: int, after: int, value: str) -> Piece:
+    return Piece(first, after, Role.MENTION, kind=MentionKind.VALUE, name=value, values=(value,), norm=value)

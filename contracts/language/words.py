@@ -1,0 +1,173 @@
+"""Word lists of the reader: function words by what they do, number words, units. Data only, no logic."""
+
+from enum import StrEnum
+
+
+class Role(StrEnum):
+    """What a word or phrase does in a request, when it names nothing by itself."""
+
+    FILLER = "filler"
+    MODAL = "modal"
+    BE = "be"
+    CAUSE = "cause"
+    DETERMINER = "determiner"
+    QUANTIFIER = "quantifier"
+    TO = "to"
+    AT = "at"
+    OVER = "over"
+    NEAR = "near"
+    FROM = "from"
+    WITH = "with"
+    OF = "of"
+    FOR = "for"
+    AND = "and"
+    THEN = "then"
+    AFTER = "after"
+    BREAK = "break"
+    NOT = "not"
+    NO = "no"
+    EXCEPT = "except"
+    AVOID = "avoid"
+    CONDITION = "condition"
+    ALTERNATIVE = "alternative"
+    CORRECTION = "correction"
+    PRONOUN = "pronoun"
+    WHOEVER = "whoever"
+    EVERYTHING = "everything"
+    LIGHT = "light"
+    FIRST = "first"
+    PUNCTUATION = "punctuation"
+    WORD = "word"
+    UNREAD = "unread"
+    MENTION = "mention"
+
+
+FUNCTION_WORDS: dict[Role, tuple[str, ...]] = {
+    Role.FILLER: (
+        "please", "pls", "kindly", "hey", "hi", "hello", "ok", "okay", "alright", "thanks", "thank you",
+        "thank you very much", "thanks a lot", "many thanks", "cheers", "could you", "can you", "would you",
+        "will you", "could you please", "can you please", "would you mind", "would you please", "you", "i", "we",
+        "i need you to", "i want you to", "i would like you to", "i'd like you to", "i'd like", "i would like",
+        "i would like to", "i'd like to", "i need to", "i want to", "we need to", "we want to", "we need you to",
+        "we want you to", "i want", "i need", "we need", "we want", "let's", "let us", "lets", "now", "right now",
+        "immediately", "right away", "at once", "asap", "as soon as possible", "straight away", "for me please",
+        "tell me", "show me", "let me know", "inform me", "why don't you", "why do not you", "don't forget to",
+        "do not forget to", "make sure to", "make sure that", "make sure", "be sure to", "do", "so", "well",
+        "go ahead", "if you please", "if you can", "if possible", "nothing else", "nothing more", "too", "as well",
+        "good morning", "good afternoon", "good evening", "dear", "also", "it is time to", "time to",
+        "your task is to", "your job is to", "your mission is to", "the task is to", "you have to", "you need to",
+        "has to", "needs to", "have to", "need to", "the job is to", "take care to", "be so kind", "be so kind as",
+    ),
+    Role.MODAL: ("should", "shall", "must", "can", "could", "would", "ought"),
+    Role.BE: ("be", "been", "is", "are", "has", "have", "has been", "have been", "get", "gets"),
+    Role.CAUSE: ("have", "get", "let", "ask", "tell", "order", "command", "instruct", "make", "use", "want", "need"),
+    Role.DETERMINER: ("the", "a", "an", "this", "that", "these", "those", "my", "your", "our", "some", "any"),
+    Role.QUANTIFIER: ("all", "both", "every", "each", "whole", "entire", "complete", "full"),
+    Role.TO: ("to", "into", "onto", "toward", "towards", "over to", "back to", "up to", "to where"),
+    Role.AT: ("at", "in", "on", "inside", "within", "in the direction"),
+    Role.OVER: ("over", "across", "throughout", "through", "around", "all over", "all around", "all across"),
+    Role.NEAR: ("near", "beside", "next to", "close to", "near to"),
+    Role.FROM: ("from", "out of"),
+    Role.WITH: ("with", "using", "by", "via", "with the help of"),
+    Role.OF: ("of",),
+    Role.FOR: ("for",),
+    Role.AND: ("and", "plus"),
+    Role.THEN: (
+        "then", "next", "afterwards", "afterward", "after that", "after this", "finally", "later", "and then",
+        "subsequently", "and afterwards", "and after that", "and finally", "and next", "when done", "once done",
+    ),
+    Role.AFTER: ("once", "when", "after", "as soon as"),
+    Role.BREAK: ("but", "however", "instead", "just", "only", "simply", "yet", "though", "although"),
+    Role.NOT: (
+        "not", "never", "don't", "dont", "do not", "doesn't", "does not", "didn't", "mustn't", "shouldn't", "can't",
+        "cannot", "can not", "won't", "wouldn't", "couldn't", "isn't", "aren't", "needn't", "shan't", "without",
+        "neither", "nor", "nothing", "nobody", "none", "no one", "no need to", "do n't", "refrain from", "hardly",
+    ),
+    Role.NO: ("no",),
+    Role.EXCEPT: (
+        "except", "except for", "excluding", "apart from", "other than", "rather than", "instead of", "but for",
+        "not including", "aside from", "save for", "minus", "less",
+    ),
+    Role.AVOID: (
+        "avoid", "avoiding", "skip", "skipping", "stay away from", "keep away from", "keep out of", "stay out of",
+        "leave out", "leaving out", "away from", "stay clear of", "keep clear of", "ignore", "ignoring", "omit",
+        "omitting", "forbid", "forbidden",
+    ),
+    Role.CONDITION: (
+        "if", "unless", "until", "till", "before", "in case", "whether", "provided", "assuming", "otherwise", "else",
+        "as long as", "depending", "except if", "only if", "even if", "what if",
+    ),
+    Role.ALTERNATIVE: ("or", "either", "and or"),
+    Role.CORRECTION: (
+        "no wait", "wait", "actually", "i mean", "i meant", "sorry", "scratch that", "correction", "never mind",
+        "nevermind", "on second thought", "on second thoughts", "oops", "my mistake", "forget", "forget it", "undo",
+        "strike that", "or rather", "disregard", "not only", "not just", "changed my mind", "hang on", "hold on",
+    ),
+    Role.PRONOUN: ("it", "them", "him", "her", "they", "there", "its", "their", "his"),
+    Role.WHOEVER: (
+        "whoever", "whomever", "anyone", "anybody", "someone", "somebody", "any one", "anyone that", "anyone who",
+    ),
+    Role.EVERYTHING: ("everything", "everyone", "everybody", "all of them"),
+    Role.LIGHT: (
+        "start", "begin", "perform", "conduct", "execute", "do", "make", "have", "take", "run", "go", "come", "try",
+        "proceed", "carry out", "go on", "go out", "go ahead", "give", "start by", "begin by", "continue",
+    ),
+    Role.FIRST: ("first", "firstly", "first of all", "to begin with", "to start with"),
+}  # fmt: skip
+"""Phrases by role. A phrase may stand under several roles (`have`, `do`): the reader picks by what follows."""
+
+ROLE_ORDER: tuple[Role, ...] = (Role.LIGHT, Role.CAUSE, Role.BE)
+"""Roles that hold only before a fitting word; tried in this order before the plain roles."""
+
+REQUESTER = "requester"
+"""The run-time value that the speaker's own words name."""
+SELF_WORDS: tuple[str, ...] = ("me", "here", "myself")
+
+ROBOT_WORDS: tuple[str, ...] = ("robot", "vehicle", "machine")
+"""Class words that every crew has: any of its robots."""
+
+ADVERBS: frozenset[str] = frozenset(
+    "twice thrice again once more often always forever fast slow quick soon tomorrow today tonight yesterday "
+    "maybe perhaps already still almost least most very really exactly about roughly up down out off away back".split()
+)
+"""Words that change how, when or how often. They are never read, and never part of a name."""
+
+ZONE_NOUNS: tuple[str, ...] = ("half", "part", "side", "section", "area", "zone", "region", "sector", "portion")
+"""Nouns that are interchangeable at the end of a zone's name, when no other zone bears that name."""
+
+PLACE_NOUNS: frozenset[str] = frozenset(
+    "position positions location coordinates coordinate point spot place whereabouts waypoint goal".split()
+)
+"""Nouns that stand for the place of what follows or precedes them."""
+
+IRREGULAR: dict[str, tuple[str, ...]] = {
+    "find": ("found",), "send": ("sent",), "drive": ("drove", "driven"), "fly": ("flew", "flown"),
+    "go": ("went", "gone"), "bring": ("brought",), "take": ("took", "taken"), "give": ("gave", "given"),
+    "tell": ("told",), "hold": ("held",), "freeze": ("froze", "frozen"), "get": ("got", "gotten"),
+    "put": ("put",), "come": ("came", "come"), "sweep": ("swept",), "lead": ("led",), "leave": ("left",),
+    "seek": ("sought",), "bear": ("bore", "borne"), "shake": ("shook", "shaken"),
+}  # fmt: skip
+"""Past forms that the regular rule does not make."""
+
+PARTICLES: frozenset[str] = frozenset("up down off back over out".split())
+"""Second parts of a verb that may stand behind its object ("bring the drone down")."""
+
+METRES: frozenset[str] = frozenset("m metre metres meter meters".split())
+OTHER_UNITS: frozenset[str] = frozenset(
+    "ft feet foot km kilometre kilometres kilometer kilometers cm mm centimetre centimetres centimeter centimeters "
+    "yd yard yards mile miles mi inch inches in deg degree degrees rad s sec second seconds min minute minutes h hour "
+    "hours percent times x hundred thousand million dozen half quarter k am pm oclock o'clock mph kmh kph knots nm "
+    "people persons victims robots drones rovers".split()
+) - {"in", "x"}
+"""What makes a number unreadable here: another unit, a multiple, a count."""
+
+DIGIT_WORDS: dict[str, int] = {
+    word: value
+    for value, word in enumerate(
+        "zero one two three four five six seven eight nine ten eleven twelve thirteen fourteen fifteen sixteen "
+        "seventeen eighteen nineteen".split()
+    )
+}
+TENS_WORDS: dict[str, int] = {
+    "twenty": 20, "thirty": 30, "forty": 40, "fifty": 50, "sixty": 60, "seventy": 70, "eighty": 80, "ninety": 90,
+}  # fmt: skip
