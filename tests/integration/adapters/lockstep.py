@@ -2,6 +2,7 @@
 
 import asyncio
 import contextlib
+import math
 import socket
 from collections.abc import AsyncIterator, Awaitable, Callable
 from typing import Any, TypeVar
@@ -39,8 +40,6 @@ def discs(world: World) -> tuple[tuple[float, float, float], ...]:
 
 
 def _row(box: Any, length_m: float, width_m: float) -> list[tuple[float, float, float]]:
-    import math
-
     along = box.yaw_rad if length_m >= width_m else box.yaw_rad + math.pi / 2
     long_m, short_m = max(length_m, width_m), min(length_m, width_m)
     count = max(1, math.ceil(long_m / short_m))
@@ -119,13 +118,11 @@ class Lockstep:
         """Wait until everything that the world sent was received and handled."""
         for _ in range(10_000):
             counts = self.world.counts()
-            if all(self.adapters[name].link_counts()[1] >= counts[name].sent for name in self.connected):
-                break
+            heard = all(self.adapters[name].link_counts()[1] >= counts[name].sent for name in self.connected)
+            if heard and not self.clock.is_busy:
+                return
             await asyncio.sleep(0)
-        else:
-            raise AssertionError(f"datagrams lost: {self.world.counts()}")
-        while self.clock.is_busy:
-            await asyncio.sleep(0)
+        raise AssertionError(f"datagrams lost: {self.world.counts()}")
 
     async def _turns(self) -> None:
         for _ in range(8):
