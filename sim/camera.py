@@ -16,8 +16,6 @@ from crew.sim.scene import GROUND_GROUP
 
 WIDTH_PX, HEIGHT_PX = 80, 60
 FOCAL_PX = (WIDTH_PX / 2) / math.tan(math.radians(80.0) / 2)  # 80 deg to the sides, 64 deg fore and aft
-HALF_WIDTH_RAD = math.atan2(WIDTH_PX / 2, FOCAL_PX)
-HALF_HEIGHT_RAD = math.atan2(HEIGHT_PX / 2, FOCAL_PX)
 RANGE_M = 60.0
 
 
@@ -31,7 +29,10 @@ class Detection(NamedTuple):
 
 
 class Camera:
-    """Looks along -z of `site` and sees `target`, a body. Image rows run aft, columns right."""
+    """Looks along -z of `site` and sees `target`, a body that stands still. Image rows run aft, columns right.
+
+    Unless `every_frame`, only those rays are cast that could meet the target; the result is the same.
+    """
 
     def __init__(
         self, model: Any, data: Any, site: str, target: str, *, seed: int, noise: bool = True, every_frame: bool = False
@@ -46,40 +47,47 @@ class Camera:
         self._rays = _pixel_rays()
         self._geomgroup = np.ones(6, dtype=np.uint8)
         self._geomgroup[GROUND_GROUP] = 0  # what lies under all else need not be hit
-        self._hits = np.zeros(WIDTH_PX * HEIGHT_PX, dtype=np.int32)
-        self._ranges = np.zeros(WIDTH_PX * HEIGHT_PX)
+        self._all = np.arange(WIDTH_PX * HEIGHT_PX)
         self._centre, self._radius_m = _bounding_sphere(model, data, self._target)
 
     def detect(self) -> Detection | None:
         """Take a frame; None if the target is not in it."""
-        if not self._every_frame and self._certainly_outside():
+        pixels = self._all if self._every_frame else self._pixels_near_target()
+        if len(pixels) == 0:
             return None
-        return self._centroid(self.image() == self._target)
+        return self._centroid(pixels[self._cast(pixels) == self._target])
 
     def image(self) -> NDArray[np.int32]:
         """The body seen by each pixel, (HEIGHT_PX, WIDTH_PX); -1 where nothing but ground or sky is."""
-        rotation = self._data.site_xmat[self._site].reshape(3, 3)
-        directions = np.ascontiguousarray(self._rays @ rotation.T).reshape(-1)
-        origin = self._data.site_xpos[self._site]
+        return self._cast(self._all).reshape(HEIGHT_PX, WIDTH_PX)
+
+    def _cast(self, pixels: NDArray[np.intp]) -> NDArray[np.int32]:
+        """The body seen by each of some pixels, given by their index in the image, row by row."""
+        directions = np.ascontiguousarray(self._rays[pixels] @ self._rotation().T).reshape(-1)
+        hits, ranges = np.zeros(len(pixels), dtype=np.int32), np.zeros(len(pixels))
         mujoco.mj_multiRay(
-            self._model, self._data, origin, directions, self._geomgroup, True, self._carrier,
-            self._hits, self._ranges, None, len(self._hits), RANGE_M,
+            self._model, self._data, self._data.site_xpos[self._site], directions, self._geomgroup, True, self._carrier,
+            hits, ranges, None, len(pixels), RANGE_M,
         )  # fmt: skip
-        bodies = np.where(self._hits >= 0, self._model.geom_bodyid[self._hits], -1)
-        return np.asarray(bodies, dtype=np.int32).reshape(HEIGHT_PX, WIDTH_PX)
+        return np.where(hits >= 0, self._model.geom_bodyid[hits], -1).astype(np.int32)
 
-    def _certainly_outside(self) -> bool:
-        """True if the target's bounding sphere does not touch the view's pyramid."""
-        rotation = self._data.site_xmat[self._site].reshape(3, 3)
-        x, y, z = (rotation.T @ (self._centre - self._data.site_xpos[self._site])).tolist()
-        aside = abs(y) * math.cos(HALF_WIDTH_RAD) + z * math.sin(HALF_WIDTH_RAD)
-        ahead = abs(x) * math.cos(HALF_HEIGHT_RAD) + z * math.sin(HALF_HEIGHT_RAD)
-        return bool(max(aside, ahead, z) > self._radius_m)
+    def _pixels_near_target(self) -> NDArray[np.intp]:
+        """Those whose rays meet the target's bounding sphere: no other can show the target."""
+        offset = self._rotation().T @ (self._centre - self._data.site_xpos[self._site])
+        distance = float(np.linalg.norm(offset))
+        if distance <= self._radius_m:
+            return self._all
+        cosine = math.sqrt(1.0 - (self._radius_m / distance) ** 2)
+        return np.flatnonzero(self._rays @ (offset / distance) >= cosine)
 
-    def _centroid(self, mask: NDArray[np.bool_]) -> Detection | None:
-        rows, columns = np.nonzero(mask)
-        if len(rows) == 0:
+    def _rotation(self) -> NDArray[np.float64]:
+        """Camera to world, from the true attitude."""
+        return np.asarray(self._data.site_xmat[self._site].reshape(3, 3))
+
+    def _centroid(self, pixels: NDArray[np.intp]) -> Detection | None:
+        if len(pixels) == 0:
             return None
+        rows, columns = np.divmod(pixels, WIDTH_PX)
         row = float(rows.mean()) + self._random.gauss(0.0, 1.0) * self._sigma_px
         column = float(columns.mean()) + self._random.gauss(0.0, 1.0) * self._sigma_px
         return Detection(

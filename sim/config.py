@@ -6,7 +6,8 @@ import msgspec
 class WorldConfig(msgspec.Struct, frozen=True, kw_only=True):
     """links: robot to `udp:HOST:PORT`, where its ground side listens.
 
-    noise off gives perfect estimates and pixels. every_frame casts the camera's rays even where the victim cannot be.
+    noise off gives perfect estimates and pixels. every_frame casts all of the camera's rays, those that cannot meet the
+    victim as well.
     """
 
     map: str = "A"

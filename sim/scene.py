@@ -21,6 +21,7 @@ def build(found: Map) -> Any:
     spec.compiler.degree = False
     spec.option.timestep = TIMESTEP_NS * 1e-9
     spec.option.integrator = mujoco.mjtIntegrator.mjINT_EULER
+    spec.option.disableflags |= mujoco.mjtDisableBit.mjDSBL_ISLAND  # too few bodies for islands to pay off
     spec.option.density, spec.option.viscosity = AIR_DENSITY, AIR_VISCOSITY
     _add_ground(spec)
     for obstacle in found.obstacles:

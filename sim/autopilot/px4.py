@@ -62,7 +62,7 @@ class Px4Quadcopter(Autopilot):
         super().__init__(vehicle.name, link, geo, home, faults, parameters, FULL_RATES_HZ)
         self.vehicle = vehicle
         self.phase = Phase.DISARMED
-        self._since_ns = 0
+        self._since_ns = self._armed_ns = 0
         self._speed = self.parameters["MPC_XY_VEL_MAX"]
         self._failures = Failures()
         self._commands |= {
@@ -226,6 +226,7 @@ class Px4Quadcopter(Autopilot):
                 self.say(mavlink.MAV_SEVERITY_INFO, "Disarmed")
             case Phase.ARMED if before is Phase.DISARMED:
                 vehicle.spin_up()
+                self._armed_ns = self.time_ns
             case Phase.RETURN:
                 height = max(self.state.z, self.parameters["RTL_RETURN_ALT"])
                 vehicle.fly_to(*self.home, height, self._speed)
@@ -263,8 +264,11 @@ class Px4Quadcopter(Autopilot):
         return self.battery.fraction < self.parameters["BAT_CRIT_THR"]
 
     def _link_lost(self) -> bool:
-        """Whether the ground is silent and that matters."""
-        return self.parameters["NAV_DLL_ACT"] != 0 and self.ground_silence_s > self.parameters["COM_DL_LOSS_T"]
+        """Whether the ground has fallen silent and that matters; one never heard is awaited from arming on."""
+        silence_s = self.ground_silence_s
+        if math.isinf(silence_s):
+            silence_s = (self.time_ns - self._armed_ns) / NS if self.armed else 0.0
+        return self.parameters["NAV_DLL_ACT"] != 0 and silence_s > self.parameters["COM_DL_LOSS_T"]
 
     def _fail_if(self, failing: bool, what: str, action: Event | None) -> None:
         if self._failures.begins(what, failing):

@@ -39,22 +39,33 @@ def test_silent_ground_makes_the_rover_hold() -> None:
         assert "GCS failsafe: HOLD" in ground.texts(TB3)
 
 
-def test_arming_needs_the_ground() -> None:
-    with Ground(heartbeat=False) as ground:
+def test_a_ground_that_fell_silent_prevents_arming() -> None:
+    with Ground() as ground:
+        ground.heartbeat = False
+        ground.run(6.0)
+        assert not ground.last(IRIS, "SYS_STATUS").onboard_control_sensors_health & 0x10000000
         assert ground.command(IRIS, 400, 1) == TEMPORARILY_REJECTED
         assert ground.texts(IRIS) == ["Arming denied: no ground station connected"]
 
 
-def test_ground_stations_are_told_by_system_id_or_for_px4_by_type() -> None:
+def test_a_ground_that_never_beats_is_lost_soon_after_arming() -> None:
     with Ground(heartbeat=False) as ground:
-        frame = mavlink.MAVLink_heartbeat_message(6, 8, 0, 0, 4, 3).pack(mavlink.MAVLink(None, 245, 190))
-        ground.send_bytes("iris", frame)
-        assert ground.command(IRIS, 400, 1) == 0
-        frame = mavlink.MAVLink_heartbeat_message(18, 8, 0, 0, 4, 3).pack(mavlink.MAVLink(None, 200, 191))
-        for _ in range(7):
-            ground.send_bytes("iris", frame)
-            ground.run(1.0)
-        assert not ground.last(IRIS, "SYS_STATUS").onboard_control_sensors_health & 0x10000000
+        ground.take_off(3.0)
+        ground.run(4.0)
+        assert ground.mode(IRIS) == LAND
+
+
+def test_px4_counts_any_ground_station_but_no_other_system() -> None:
+    def beat(kind: int, system: int) -> bytes:
+        return bytes(mavlink.MAVLink_heartbeat_message(kind, 8, 0, 0, 4, 3).pack(mavlink.MAVLink(None, system, 190)))
+
+    with Ground(heartbeat=False) as ground:
+        for kind, healthy in ((6, True), (18, False)):
+            for _ in range(7):
+                ground.send_bytes("iris", beat(kind, 245))
+                ground.run(1.0)
+            health = ground.last(IRIS, "SYS_STATUS").onboard_control_sensors_health
+            assert bool(health & 0x10000000) is healthy
 
 
 def test_low_battery_lands_and_then_refuses_to_arm() -> None:
