@@ -53,7 +53,9 @@ def _domain(path: str, loc: Loc, scope: Scope, problems: Problems) -> str | None
     if head in scope.casts:
         return _fluent_domain(head, attribute, loc, scope, problems)
     if head in scope.values:
-        return _attribute_domain(f"run-time value {head}", attribute, dot, VALUE_ATTRIBUTES, loc, problems)
+        return _attribute_domain(
+            f"run-time value {head}", attribute if dot else "status", loc, VALUE_ATTRIBUTES, problems
+        )
     if head in scope.slots:
         return _slot_domain(head, attribute, dot, loc, scope, problems)
     valid = [f"{role}.{f.name}" for role in scope.casts for kind in scope.kinds_of(role) for f in kind.fluents]
@@ -74,19 +76,21 @@ def _fluent_domain(role: str, name: str, loc: Loc, scope: Scope, problems: Probl
 
 def _slot_domain(name: str, attribute: str, dot: str, loc: Loc, scope: Scope, problems: Problems) -> str | None:
     kinds = scope.slots[name].types
+    if not kinds:
+        return None
     attributes: dict[str, str] = {}
     if SlotType.OBJECT in kinds:
         attributes |= OBJECT_ATTRIBUTES
     if SlotType.VALUE in kinds:
         attributes |= VALUE_ATTRIBUTES
-    return _attribute_domain(f"slot {name}", attribute, dot, attributes, loc, problems)
+    if kinds == (SlotType.VALUE,) and not dot:
+        return "status"
+    return _attribute_domain(f"slot {name}", attribute, loc, attributes, problems)
 
 
 def _attribute_domain(
-    owner: str, attribute: str, dot: str, attributes: dict[str, str], loc: Loc, problems: Problems
+    owner: str, attribute: str, loc: Loc, attributes: dict[str, str], problems: Problems
 ) -> str | None:
-    if not dot and "status" in attributes:
-        return "status"
     domain = attributes.get(attribute)
     if domain is None:
         problems.unknown(

@@ -3,7 +3,6 @@
 from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import BeforeValidator, ConfigDict, Field
-from pydantic.json_schema import SkipJsonSchema
 
 from crew.contracts.file_model import (
     Argument,
@@ -28,12 +27,10 @@ class SlotModel(FileModel):
     type: Annotated[
         Names, Field(min_length=1, description="object, location, zone, point, altitude or a run-time value")
     ]
-    default: Annotated[
-        Argument | SkipJsonSchema[None], Field(description="What the slot is if the request names nothing")
-    ] = None
+    default: Annotated[Argument | None, Field(description="What the slot is if the request names nothing")] = None
     free: Annotated[bool, Field(description="The planner may choose within the skill's bounds")] = False
     optional: Annotated[bool, Field(description="A request may leave the slot open")] = False
-    said: Annotated[Literal["from"] | SkipJsonSchema[None], Field(description="A claim about an origin")] = None
+    said: Annotated[Literal["from"] | None, Field(description="A claim about an origin")] = None
 
 
 class SafeModel(FileModel):

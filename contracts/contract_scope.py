@@ -54,7 +54,7 @@ class Scope(msgspec.Struct, frozen=True, kw_only=True):
     def fluent_of(self, role: str, name: str) -> Fluent | None:
         """A fluent that every kind that may play the role has."""
         found = [kind.fluent(name) for kind in self.kinds_of(role)]
-        return found[0] if all(found) else None
+        return found[0] if found and all(found) else None
 
 
 def scope_of(model: ContractModel, crew: Crew, kinds: Mapping[str, Kind]) -> Scope:

@@ -66,7 +66,7 @@ def _check_zone(name: str, zone: ZoneModel, model: CrewModel, problems: Problems
         return
     lacking = [axis for axis in ("x", "y") if getattr(zone, axis) is None]
     if lacking:
-        problems.key(loc, f"zone {name} lacks {' and '.join(lacking)}", fix="write x: [lowest, highest], in metres")
+        problems.key(loc, f"zone {name} lacks {' and '.join(lacking)}", fix=f"write {lacking[0]}: [lowest, highest]")
     elif _check_ranges(zone, loc, problems):
         assert zone.x is not None
         assert zone.y is not None

@@ -3,7 +3,6 @@
 from typing import Annotated, Any, ClassVar
 
 from pydantic import Field
-from pydantic.json_schema import SkipJsonSchema
 
 from crew.contracts.file_model import FileModel, Name, Text
 
@@ -36,8 +35,8 @@ class RobotModel(FileModel):
     called: ClassVar[str] = "a robot"
     kind: Name
     adapter: Name
-    sim: Annotated[Text | SkipJsonSchema[None], Field(description="The simulated vehicle's name in the scene")] = None
-    connection: Annotated[Text | SkipJsonSchema[None], Field(description="The real robot's connection")] = None
+    sim: Annotated[Text | None, Field(description="The simulated vehicle's name in the scene")] = None
+    connection: Annotated[Text | None, Field(description="The real robot's connection")] = None
     aliases: Aliases = Field(default_factory=list)
     options: dict[str, Any] = Field(default_factory=dict, description="Settings of the adapter")
 
@@ -54,8 +53,8 @@ class ZoneModel(FileModel):
     """A named part of the operational area."""
 
     called: ClassVar[str] = "a zone"
-    x: Range | SkipJsonSchema[None] = None
-    y: Range | SkipJsonSchema[None] = None
+    x: Range | None = None
+    y: Range | None = None
     aliases: Aliases = Field(default_factory=list)
 
 
@@ -90,7 +89,7 @@ class CrewModel(FileModel):
     called: ClassVar[str] = "a crew"
     crew: Name
     area: AreaModel
-    origin: OriginModel | SkipJsonSchema[None] = None
+    origin: OriginModel | None = None
     robots: Annotated[dict[Name, RobotModel], Field(min_length=1)]
     locations: dict[Name, LocationModel] = Field(default_factory=dict)
     zones: dict[Name, ZoneModel] = Field(default_factory=dict)
@@ -100,4 +99,4 @@ class CrewModel(FileModel):
     obstacles: list[Disc] = Field(
         default_factory=list, description="Known obstacles as discs x, y, radius: world ENU, metres"
     )
-    sim: SimModel | SkipJsonSchema[None] = None
+    sim: SimModel | None = None

@@ -20,7 +20,8 @@ from pydantic_core import ErrorDetails, PydanticCustomError
 from crew.contracts.source import Block, Items, Loc, Problems, nearest_name
 
 Name = Annotated[str, StringConstraints(pattern="^[a-z][a-z0-9_]{0,39}$")]
-Text = Annotated[str, StringConstraints(pattern=r"\S")]
+SOME_TEXT = r"\S"
+Text = Annotated[str, StringConstraints(pattern=SOME_TEXT)]
 
 _YAML_1_1 = {"yes": "true", "on": "true", "y": "true", "no": "false", "off": "false", "n": "false"}
 _UNIT = re.compile(r"[-+]?[0-9][0-9.,_]*\s*([^\W\d_]|[°'\"%]).*")
@@ -157,19 +158,30 @@ _KINDS = {
 
 
 def _report(error: ErrorDetails, problems: Problems) -> None:
-    loc, kind, value = error["loc"], error["type"], error["input"]
+    kind, value = error["type"], error["input"]
+    loc = _written(error["loc"], problems.root)
     if kind == "missing":
-        problems.key(loc[:-1], f"missing key {loc[-1]!r}{_inside(loc[:-1])}")
-        return
-    if loc and loc[-1] == "[key]":
-        problems.key(loc[:-1], f"not a name{_inside(loc[:-2])}", observed=show(value), allowed=_KINDS[kind])
-        return
-    allowed = _KINDS.get(kind, error["msg"]).format(**error.get("ctx", {}))
-    if kind == "string_pattern_mismatch" and error["ctx"]["pattern"] == r"\S":
-        allowed = "some text"
-    problems.at(
-        loc, f"bad value of {_path(loc)}", observed=show(value), allowed=allowed, fix=advice(value, allowed, loc)
-    )
+        problems.key(loc, f"missing key {error['loc'][-1]!r}{_inside(loc)}")
+    elif error["loc"] and error["loc"][-1] == "[key]":
+        problems.key(loc, f"not a name{_inside(loc[:-1])}", observed=show(value), allowed=_KINDS[kind])
+    else:
+        context = error.get("ctx", {})
+        allowed = _KINDS.get(kind, error["msg"]).format(**context)
+        if context.get("pattern") == SOME_TEXT:
+            allowed = "some text"
+        fix = advice(value, allowed, loc)
+        problems.at(loc, f"bad value of {_path(loc)}", observed=show(value), allowed=allowed, fix=fix)
+
+
+def _written(loc: Loc, root: Block) -> Loc:
+    """The parts of a way that the file has: without the keys that lack and the indices of what is no list."""
+    node: Any = root
+    parts: list[str | int] = []
+    for part in loc:
+        if (isinstance(node, Block) and part in node) or (isinstance(node, Items) and isinstance(part, int)):
+            parts.append(part)
+            node = node[part]
+    return tuple(parts)
 
 
 def show(value: Any) -> str:

@@ -25,13 +25,13 @@ def crew_file_schema() -> Schema:
 
 
 def plan_tool() -> Schema:
-    """The planner's tool `submit_plan`. Open on purpose: what a plan may say is the gate's business, not the schema's."""
+    """The planner's tool `submit_plan`. Open on purpose: what a plan may say is the gate's business."""
     value = {"anyOf": [{"type": "number"}, {"type": "string"}]}
     argument = _object({"name": {"type": "string"}, "value": value})
     step = _object({"robot": {"type": "string"}, "skill": {"type": "string"}, "args": _list(argument)})
     return {
         "name": "submit_plan",
-        "description": "Propose a plan: the name of a workflow contract, and the calls in the order of their execution.",
+        "description": "Propose a plan: the name of a workflow contract, and the calls in their order.",
         "input_schema": _object({"contract": {"type": "string"}, "steps": _list(step)}),
     }
 
@@ -74,6 +74,9 @@ def _tidy(schema: Any) -> Any:
         return [_tidy(part) for part in schema]
     if not isinstance(schema, dict):
         return schema
+    options = [option for option in schema.get("anyOf", []) if option != {"type": "null"}]
+    if len(options) == 1:
+        schema = {**options[0], **{key: part for key, part in schema.items() if key != "anyOf"}}
     made_up = {"title"} if isinstance(schema.get("title"), str) else set()
     made_up |= {"default"} if "default" in schema and schema["default"] is None else set()
     closed: Schema = {"additionalProperties": False} if "patternProperties" in schema else {}
