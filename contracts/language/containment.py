@@ -37,7 +37,7 @@ class Case(NamedTuple):
 
 
 def check_containment(reading: Reading, instance: Instance, rules: Rules, *, confirmed: bool) -> Finding | None:
-    """The first finding, or None. `confirmed` lifts unread words only: it licenses nothing and overrides no negation."""
+    """The first finding, or None. `confirmed` lifts unread words and nothing else."""
     case = Case(reading, instance, rules.contracts[instance.contract], rules)
     return (
         unclear(reading)
@@ -59,7 +59,8 @@ def check_reading(reading: Reading) -> Finding | None:
         return found
     if not reading.actions and any(m.kind is MentionKind.ACTION for m in reading.excluded):
         first = reading.excluded[0]
-        message = f"the request only excludes ({_quoted(reading.excluded)}) and asks for nothing; say what to do"
+        excluded = ", ".join(f"'{m.text}'" for m in reading.excluded)
+        message = f"the request only excludes ({excluded}) and asks for nothing; say what to do"
         return Finding(code=Code.FORBIDDEN_BY_REQUEST, message=message, field="request", span=first.span)
     unknown = next((m for m in reading.wanted if m.kind is MentionKind.UNKNOWN), None)
     if unknown is not None:
@@ -154,7 +155,8 @@ def _asked(case: Case) -> Finding | None:
         if item.step in asked or (case.contract.asks and item.step not in case.contract.asks):
             continue
         verbs = tuple(a.text for a in case.reading.actions)
-        message = f"the plan has {item.call}, which the request does not ask for; it asks for: {', '.join(verbs) or 'nothing'}"
+        said = ", ".join(verbs) or "nothing"
+        message = f"the plan has {item.call}, which the request does not ask for; it asks for: {said}"
         return Finding(code=Code.NOT_REQUESTED, message=message, field=f"steps[{index}]", allowed=verbs)
     return None
 

@@ -12,13 +12,34 @@ from crew.contracts.language.tokens import Token
 from crew.contracts.language.words import PLACE_NOUNS, ZONE_NOUNS
 from crew.contracts.plan import SlotValue, Spot, Zone
 
-_HEIGHT_NOUNS = frozenset("altitude height elevation alt".split())
+_HEIGHT_NOUNS = frozenset(("altitude", "height", "elevation", "alt"))
 _HEIGHT_TAILS = (
     ("above", "the", "ground"), ("above", "ground"), ("of", "altitude"), ("of", "height"), ("in", "altitude"),
     ("high",), ("altitude",), ("height",), ("up",), ("agl",),
 )  # fmt: skip
 _NOT_HEIGHT = frozenset(
-    "away from north south east west of per left right before behind ahead radius wide long apart around x y".split()
+    (
+        "away",
+        "from",
+        "north",
+        "south",
+        "east",
+        "west",
+        "of",
+        "per",
+        "left",
+        "right",
+        "before",
+        "behind",
+        "ahead",
+        "radius",
+        "wide",
+        "long",
+        "apart",
+        "around",
+        "x",
+        "y",
+    )
 )
 _FRAMES = frozenset((*ZONE_NOUNS, "rectangle", "box", "square", "strip", "range", "corners"))
 _FRAME_LINKS = frozenset(("with", "where", "of", "between", "from", ",", ":", "for", "bounded", "by", "at", "in"))
@@ -108,15 +129,16 @@ def _axes(tokens: list[Token], at: int) -> tuple[str, int]:
         word, at = norm_at(tokens, at + 1), at + 1
     if word not in _OTHER_AXIS:
         return "", at
-    if norm_at(tokens, at + 1) in ("and", ",", "&") and norm_at(tokens, at + 2) == _OTHER_AXIS[word]:
-        if figure(tokens, skip(tokens, at + 3, "=", ":")) is None or norm_at(tokens, at + 1) == "and":
-            return "xy", at + 3
+    joined = norm_at(tokens, at + 1)
+    if joined in ("and", ",", "&") and norm_at(tokens, at + 2) == _OTHER_AXIS[word]:
+        return "xy", at + 3
     return word, skip(tokens, at + 1, "axis", "coordinate", "coordinates")
 
 
 def _span(tokens: list[Token], at: int, *, opened: bool) -> tuple[Interval, int] | None:
     """`from a to b`, `between a and b`, `[a, b]`; `a to b` only behind an axis (`opened`)."""
     opener = norm_at(tokens, at)
+    links: tuple[str, ...]
     if opener in ("from", "between"):
         links = ("and", "to", "-") if opener == "between" else ("to", "until", "till", "through", "-", "up")
     elif opener in _BRACKETS and opened:

@@ -1,7 +1,9 @@
 """Noun phrases: modifiers, heads and places. What does not resolve whole is kept verbatim as unknown, never trimmed."""
 
+from itertools import pairwise
+
 from crew.contracts.language.mention import Direction, MentionKind
-from crew.contracts.language.piece import PREPOSITIONS, SOFT, Piece, before, behind
+from crew.contracts.language.piece import PREPOSITIONS, Piece, before, behind
 from crew.contracts.language.tokens import Token
 from crew.contracts.language.words import PLACE_NOUNS, ZONE_NOUNS, Role
 from crew.contracts.plan import Zone
@@ -41,9 +43,8 @@ def loose_ends(pieces: list[Piece]) -> None:
     for at, piece in enumerate(pieces):
         following = behind(pieces, at, _NO_ARTICLE | {Role.OF, Role.FILLER})
         kind = following.kind if following is not None else None
-        if piece.role is Role.NEAR and not (following is not None and following.near_is_at):
-            piece.become(Role.UNREAD)
-        elif piece.role is Role.OVER and kind is not MentionKind.ZONE:
+        far = piece.role is Role.NEAR and not (following is not None and following.near_is_at)
+        if far or (piece.role is Role.OVER and kind is not MentionKind.ZONE):
             piece.become(Role.UNREAD)
         elif piece.role is Role.QUANTIFIER and kind is not MentionKind.ZONE:
             if following is not None and following.is_robot and piece.norm in ("all", "both", "every", "each"):
@@ -145,7 +146,7 @@ def _of_phrases(pieces: list[Piece]) -> list[Piece]:
 
 def _neighbours(pieces: list[Piece]) -> None:
     """Two names side by side for one thing: `the north area`, `the rover tb3`."""
-    for left, right in zip(pieces, pieces[1:], strict=False):
+    for left, right in pairwise(pieces):
         if _nested(left, right):
             left.after = right.after
             right.become(Role.FILLER)
@@ -168,6 +169,3 @@ def _after_verb_and_article(pieces: list[Piece]) -> None:
     for verb, article, piece in zip(pieces, pieces[1:], pieces[2:], strict=False):
         if verb.is_action and article.role is Role.DETERMINER and piece.is_action and article.norm in ("the", "a"):
             piece.become_unknown(piece.first, piece.after)
-
-
-__all__ = ["SOFT", "directions", "loose_ends", "noun_phrases"]

@@ -1,6 +1,7 @@
 """Who does what: pronouns and their antecedents, robots and the verbs they belong to, the order that was asked for."""
 
 from collections.abc import Iterator
+from itertools import pairwise
 
 from crew.contracts.language.inflect import Form
 from crew.contracts.language.lexicon import Lexicon
@@ -84,7 +85,7 @@ def _able(pieces: list[Piece], at: int, candidate: Piece, lexicon: Lexicon) -> b
 
 def place_pronouns(pieces: list[Piece]) -> None:
     """`its position`, `their location`: the noun adds nothing to the pronoun."""
-    for owner, noun in zip(pieces, pieces[1:], strict=False):
+    for owner, noun in pairwise(pieces):
         if owner.role is Role.PRONOUN and owner.norm in ("its", "their", "his", "her") and noun.norm in PLACE_NOUNS:
             noun.become(Role.FILLER)
 

@@ -126,17 +126,23 @@ SELF_WORDS: tuple[str, ...] = ("me", "here", "myself")
 ROBOT_WORDS: tuple[str, ...] = ("robot", "vehicle", "machine")
 """Class words that every crew has: any of its robots."""
 
-ADVERBS: frozenset[str] = frozenset(
-    "twice thrice again once more often always forever fast slow quick soon tomorrow today tonight yesterday "
-    "maybe perhaps already still almost least most very really exactly about roughly up down out off away back".split()
+
+def _set(text: str) -> frozenset[str]:
+    return frozenset(text.split())
+
+
+ADVERBS: frozenset[str] = _set(
+    "twice thrice again once more often always forever fast slow quick soon tomorrow today tonight "
+    "yesterday maybe perhaps already still almost least most very really exactly about roughly up down "
+    "out off away back"
 )
 """Words that change how, when or how often. They are never read, and never part of a name."""
 
 ZONE_NOUNS: tuple[str, ...] = ("half", "part", "side", "section", "area", "zone", "region", "sector", "portion")
 """Nouns that are interchangeable at the end of a zone's name, when no other zone bears that name."""
 
-PLACE_NOUNS: frozenset[str] = frozenset(
-    "position positions location coordinates coordinate point spot place whereabouts waypoint goal".split()
+PLACE_NOUNS: frozenset[str] = _set(
+    "position positions location coordinates coordinate point spot place whereabouts waypoint goal"
 )
 """Nouns that stand for the place of what follows or precedes them."""
 
@@ -149,25 +155,23 @@ IRREGULAR: dict[str, tuple[str, ...]] = {
 }  # fmt: skip
 """Past forms that the regular rule does not make."""
 
-PARTICLES: frozenset[str] = frozenset("up down off back over out".split())
+PARTICLES: frozenset[str] = _set("up down off back over out")
 """Second parts of a verb that may stand behind its object ("bring the drone down")."""
 
-METRES: frozenset[str] = frozenset("m metre metres meter meters".split())
-OTHER_UNITS: frozenset[str] = frozenset(
-    "ft feet foot km kilometre kilometres kilometer kilometers cm mm centimetre centimetres centimeter centimeters "
-    "yd yard yards mile miles mi inch inches in deg degree degrees rad s sec second seconds min minute minutes h hour "
-    "hours percent times x hundred thousand million dozen half quarter k am pm oclock o'clock mph kmh kph knots nm "
-    "people persons victims robots drones rovers".split()
-) - {"in", "x"}
+METRES: frozenset[str] = _set("m metre metres meter meters")
+OTHER_UNITS: frozenset[str] = _set(
+    "ft feet foot km kilometre kilometres kilometer kilometers cm mm centimetre centimetres centimeter "
+    "centimeters yd yard yards mile miles mi inch inches deg degree degrees rad s sec second seconds "
+    "min minute minutes h hour hours percent times hundred thousand million dozen half quarter k am pm "
+    "oclock o'clock mph kmh kph knots nm people persons victims robots drones rovers"
+)
 """What makes a number unreadable here: another unit, a multiple, a count."""
 
-DIGIT_WORDS: dict[str, int] = {
-    word: value
-    for value, word in enumerate(
-        "zero one two three four five six seven eight nine ten eleven twelve thirteen fourteen fifteen sixteen "
-        "seventeen eighteen nineteen".split()
-    )
-}
+_SMALL = (
+    "zero one two three four five six seven eight nine ten eleven twelve thirteen fourteen fifteen sixteen seventeen "
+    "eighteen nineteen"
+)
+DIGIT_WORDS: dict[str, int] = {word: value for value, word in enumerate(_SMALL.split())}
 TENS_WORDS: dict[str, int] = {
     "twenty": 20, "thirty": 30, "forty": 40, "fifty": 50, "sixty": 60, "seventy": 70, "eighty": 80, "ninety": 90,
 }  # fmt: skip
