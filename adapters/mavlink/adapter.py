@@ -63,8 +63,9 @@ class MavlinkAdapter:
         self._safe: Permit | None = None
         self._braking: asyncio.Task[None] | None = None
         self._brake_fault = ""
+        self._doubted_ns = 0
         self._halted_ns = 0
-        self._repeater = StopRepeater(self._send_stop, self._still_since_halt, self._latch.lock)
+        self._repeater = StopRepeater(self._send_stop, lambda: self._still_since(self._halted_ns), self._latch.lock)
 
     async def connect(self) -> None:
         """Find the vehicle and its telemetry; raise AdapterError naming what is missing. Again: reconnect."""
@@ -159,7 +160,7 @@ class MavlinkAdapter:
 
     def health(self) -> str:
         """Empty if the robot can take a skill, otherwise the reason in a few words."""
-        return (self._vehicle.fault() or self._brake_fault) if self._skills else "not connected"
+        return (self._vehicle.fault() or self._motion_doubt()) if self._skills else "not connected"
 
     def link_counts(self) -> tuple[int, int]:
         """Datagrams sent and received."""
@@ -256,6 +257,7 @@ class MavlinkAdapter:
             self._brake_fault = ""
         except AdapterError as error:
             self._brake_fault = f"did not confirm its stop: {error}"
+            self._doubted_ns = self._clock.now_ns()
 
     async def _settle_brake(self) -> None:
         """Wait for the braking that an earlier failure left."""
@@ -267,13 +269,19 @@ class MavlinkAdapter:
         if not self._ready().grounded:
             await brake(run, self._ready().still_mps)
 
+    def _motion_doubt(self) -> str:
+        """Why it may still be moving after a failure; empty once it was seen standing still since."""
+        if self._brake_fault and self._still_since(self._doubted_ns):
+            self._brake_fault = ""
+        return self._brake_fault
+
     def _send_stop(self) -> None:
         self._vehicle.send_stop()
 
-    def _still_since_halt(self) -> bool:
+    def _still_since(self, start_ns: int) -> bool:
         motion = self._vehicle.telemetry.motion
         still_mps = self._skills.still_mps if self._skills else 0.0
-        return motion is not None and motion.stamp_ns > self._halted_ns and motion.value.speed_mps < still_mps
+        return motion is not None and motion.stamp_ns > start_ns and motion.value.speed_mps < still_mps
 
     def _hover_s(self) -> float:
         return self._options.hover_s if isinstance(self._options, QuadcopterOptions) else 0.0

@@ -40,14 +40,13 @@ def fitness_fault(telemetry: Telemetry, flavour: Flavour, min_battery_percent: f
     """Why the vehicle may not be set in motion; empty if it may."""
     if telemetry.age_s(telemetry.home) > HOME_MAX_AGE_S:
         return "no fresh home position"
-    if bad := bad_sensors(telemetry, flavour):
-        return f"unhealthy: {', '.join(bad)}"
     battery = telemetry.battery_percent
     if battery is None:
         return "battery unknown"
     if battery.value < min_battery_percent:
         return f"battery at {battery.value:.0f} %, needs {min_battery_percent:.0f} %"
-    return ""
+    bad = bad_sensors(telemetry, flavour)
+    return f"unhealthy: {', '.join(bad)}" if bad else ""
 
 
 def bad_sensors(telemetry: Telemetry, flavour: Flavour) -> list[str]:

@@ -24,6 +24,8 @@ T = TypeVar("T")
 
 POLL_S = 0.05
 HEARTBEAT_PERIOD_S = 1.0
+FIT_S = 2.0
+"""A vehicle's health follows its first contact with the ground by up to this long."""
 
 
 class Vehicle:
@@ -75,6 +77,7 @@ class Vehicle:
             params = (float(message_id), round(1e6 / rate_hz))
             await self._commander.send(Command(id=mavlink.MAV_CMD_SET_MESSAGE_INTERVAL, params=params))
         await self._until(lambda: not self._missing(), end_ns, self._silent)
+        await self._grow_fit()
 
     async def close(self) -> None:
         """Stop speaking and let the socket go."""
@@ -154,6 +157,12 @@ class Vehicle:
         while not ready():
             if self.clock.now_ns() >= end_ns:
                 raise error()
+            await self.clock.sleep(POLL_S)
+
+    async def _grow_fit(self) -> None:
+        """Give the vehicle time to take note of the ground's heartbeat; `fault` tells if it stays unfit."""
+        start_ns = self.clock.now_ns()
+        while self.fault() and seconds_since(self.clock, start_ns) < FIT_S:
             await self.clock.sleep(POLL_S)
 
     def _missing(self) -> list[str]:

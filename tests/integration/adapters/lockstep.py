@@ -9,6 +9,7 @@ from typing import Any, TypeVar
 
 from crew.adapter import AdapterConfig
 from crew.adapters.mavlink.adapter import MavlinkAdapter
+from crew.adapters.mavlink.writer import Permit
 from crew.clock import SimClock
 from crew.sim.config import WorldConfig
 from crew.sim.world import World
@@ -128,6 +129,14 @@ class Lockstep:
         for _ in range(8):
             await asyncio.sleep(0)
 
+    def tell(self, name: str, message: Any) -> None:
+        """Send the vehicle a message over the adapter's link as somebody else would: a pilot, a second station."""
+        self.adapters[name]._vehicle.link.writer.send(message, Permit())
+
+    def utter(self, name: str, message: Any) -> None:
+        """Let the vehicle say something."""
+        self.world._autopilots[name].link.send(message)
+
     async def close(self) -> None:
         for adapter in self.adapters.values():
             await adapter.close()
@@ -139,11 +148,10 @@ async def lockstep(*robots: str, **how: Any) -> AsyncIterator[Lockstep]:
     """A world with the named robots' adapters connected."""
     stage = Lockstep(**how)
     try:
-        for name in robots:
-            connecting = asyncio.ensure_future(stage.adapters[name].connect())
-            await asyncio.sleep(0)
-            stage.connected.append(name)
-            await stage.run(connecting)
+        connecting = [asyncio.ensure_future(stage.adapters[name].connect()) for name in robots]
+        await asyncio.sleep(0)
+        stage.connected.extend(robots)
+        await stage.run(asyncio.gather(*connecting))
         yield stage
     finally:
         await stage.close()
