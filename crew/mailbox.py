@@ -63,7 +63,7 @@ class Mailbox(ABC, Generic[T]):
         self._lock = threading.Lock()
         self._armed = False
         self._closed = False
-        self._wakeup = asyncio.Event()
+        self._waiter: asyncio.Future[None] | None = None
         self._batch: deque[Sample] = deque()
         self._turn_due = False
 
@@ -87,8 +87,7 @@ class Mailbox(ABC, Generic[T]):
     async def changed(self) -> None:
         """Return when something may be there to `take`."""
         while not (self._batch or self._closed or self._waiting()):
-            await self._wakeup.wait()
-            self._wakeup.clear()
+            await self._woken()
 
     def take(self) -> list[T]:
         """What is there now, at most 64 items; empty if nothing is."""
@@ -110,8 +109,7 @@ class Mailbox(ABC, Generic[T]):
                 continue
             if self._closed:
                 raise StopAsyncIteration
-            await self._wakeup.wait()
-            self._wakeup.clear()
+            await self._woken()
 
     @abstractmethod
     def _store(self, sample: Sample) -> bool:
@@ -135,10 +133,22 @@ class Mailbox(ABC, Generic[T]):
 
     def _wake(self) -> None:
         try:
-            self._loop.call_soon_threadsafe(self._wakeup.set)
+            self._loop.call_soon_threadsafe(self._release)
         except RuntimeError:
             if not self._loop.is_closed():
                 raise
+
+    def _release(self) -> None:
+        if self._waiter is not None and not self._waiter.done():
+            self._waiter.set_result(None)
+
+    async def _woken(self) -> None:
+        """Wait for the next wakeup. The caller looked, on the loop, and found nothing."""
+        self._waiter = self._loop.create_future()
+        try:
+            await self._waiter
+        finally:
+            self._waiter = None
 
     def _refill(self) -> bool:
         with self._lock:
