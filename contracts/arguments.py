@@ -69,7 +69,9 @@ def _bad_value(call: Call, param: Param) -> Refusal | None:
     if not param.is_number:
         if isinstance(value, str) and value:
             return None
-        return _argument(Code.BAD_ARGUMENT, call, param.name, show(value), f"the name of a {param.entity}", "is no name")
+        return _argument(
+            Code.BAD_ARGUMENT, call, param.name, show(value), f"the name of a {param.entity}", "is no name"
+        )
     if isinstance(value, bool) or not isinstance(value, int | float):
         return _argument(Code.BAD_ARGUMENT, call, param.name, repr(value), "a number", "is not a number")
     if not math.isfinite(value):
@@ -126,7 +128,9 @@ def _swapped(call: Call, skill: Skill) -> Refusal | None:
     for low, high in skill.ranges:
         a, b = call.args.get(low), call.args.get(high)
         if isinstance(a, int | float) and isinstance(b, int | float) and a >= b:
-            return _argument(Code.BAD_ARGUMENT, call, low, f"{low}={a:g}, {high}={b:g}", f"{low} < {high}", "is no range")
+            return _argument(
+                Code.BAD_ARGUMENT, call, low, f"{low}={a:g}, {high}={b:g}", f"{low} < {high}", "is no range"
+            )
     return None
 
 
@@ -141,4 +145,6 @@ def _refuse(code: Code, field: str, observed: str, valid: list[str], message: st
     close = get_close_matches(observed, valid, n=1, cutoff=0.6)
     hint = f"; did you mean {close[0]!r}?" if close else ""
     allowed = ", ".join(valid) or "none"
-    return Refusal(code=code, message=f"{message}{hint} (known: {allowed})", field=field, observed=observed, allowed=allowed)
+    return Refusal(
+        code=code, message=f"{message}{hint} (known: {allowed})", field=field, observed=observed, allowed=allowed
+    )

@@ -32,6 +32,7 @@ def check_guard(guard: GuardModel, loc: Loc, scope: Scope, problems: Problems) -
 
 
 def _check_when(name: str, value: str, loc: Loc, scope: Scope, problems: Problems) -> None:
+    """Slots that are bound to numbers (zones, points, altitudes) can only be `given`."""
     slot = scope.slots.get(name)
     if slot is None:
         problems.unknown(loc, "unknown slot", name, scope.slots, key=True)
@@ -39,7 +40,6 @@ def _check_when(name: str, value: str, loc: Loc, scope: Scope, problems: Problem
     names: dict[SlotType, list[str]] = {
         SlotType.OBJECT: scope.objects,
         SlotType.LOCATION: scope.locations,
-        SlotType.ZONE: scope.zones,
         SlotType.VALUE: list(slot.values),
     }
     valid = [GIVEN, *(word for kind in slot.types for word in names.get(kind, []))]

@@ -24,6 +24,8 @@ class Scope(msgspec.Struct, frozen=True, kw_only=True):
     slots: Mapping[str, Slot]
     casts: Mapping[str, tuple[RobotSpec, ...]]
     """Role to the robots that have every skill it needs; to all robots if none has."""
+    uncast: frozenset[str]
+    """Roles that no robot can play: of their fluents it is only asked that some kind has them."""
     by_name: Mapping[str, Kind]
 
     @property
@@ -54,6 +56,8 @@ class Scope(msgspec.Struct, frozen=True, kw_only=True):
     def fluent_of(self, role: str, name: str) -> Fluent | None:
         """A fluent that every kind that may play the role has."""
         found = [kind.fluent(name) for kind in self.kinds_of(role)]
+        if role in self.uncast:
+            return next((fluent for fluent in found if fluent), None)
         return found[0] if found and all(found) else None
 
 
@@ -61,13 +65,18 @@ def scope_of(model: ContractModel, crew: Crew, kinds: Mapping[str, Kind]) -> Sco
     robots = [spec for spec in crew.robots if spec.kind in kinds]
     known = distinct(kinds[spec.kind] for spec in robots)
     real = {skill.name for kind in known for skill in kind.skills}
-    casts = {}
+    able: dict[str, list[RobotSpec]] = {}
     for role in model.roles:
         needed = needed_skills(model, role) & real
-        able = [spec for spec in robots if all(kinds[spec.kind].skill(name) for name in needed)]
-        casts[role] = tuple(able or robots)
-    slots = {name: slot_of(name, model, crew) for name in model.slots}
-    return Scope(crew=crew, kinds=known, slots=slots, casts=casts, by_name=kinds)
+        able[role] = [spec for spec in robots if all(kinds[spec.kind].skill(name) for name in needed)]
+    return Scope(
+        crew=crew,
+        kinds=known,
+        slots={name: slot_of(name, model, crew) for name in model.slots},
+        casts={role: tuple(found or robots) for role, found in able.items()},
+        uncast=frozenset(role for role, found in able.items() if not found),
+        by_name=kinds,
+    )
 
 
 def needed_skills(model: ContractModel, role: str) -> set[str]:

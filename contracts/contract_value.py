@@ -25,7 +25,7 @@ _DOMAIN_SLOTS = {
 def check_operand(value: bool | float | str, domain: str, loc: Loc, scope: Scope, problems: Problems) -> None:
     """The right side of a guard against the domain of its left side."""
     if isinstance(value, str) and value.startswith("$"):
-        check_reference(value, _DOMAIN_SLOTS.get(domain, set()), f"a guard on a {domain}", loc, scope, problems)
+        _check_slot(value, _DOMAIN_SLOTS.get(domain, set()), f"a guard on {_article(domain)}", loc, scope, problems)
     elif domain in ("bool", "number"):
         fits = isinstance(value, bool) if domain == "bool" else isinstance(value, float)
         if not fits:
@@ -33,9 +33,13 @@ def check_operand(value: bool | float | str, domain: str, loc: Loc, scope: Scope
             fix = advice(value, allowed, loc)
             problems.at(loc, "value outside the domain", observed=show(value), allowed=allowed, fix=fix)
     elif not isinstance(value, str):
-        problems.at(loc, "value outside the domain", observed=show(value), allowed=f"the name of a {domain}")
+        problems.at(loc, "value outside the domain", observed=show(value), allowed=f"the name of {_article(domain)}")
     elif value not in (valid := _operands(domain, scope)):
         problems.unknown(loc, f"unknown {domain}", value, valid)
+
+
+def _article(noun: str) -> str:
+    return f"an {noun}" if noun.startswith("o") else f"a {noun}"
 
 
 def _operands(domain: str, scope: Scope) -> list[str]:
@@ -47,12 +51,15 @@ def _operands(domain: str, scope: Scope) -> list[str]:
 def check_argument(value: bool | float | str, param: Param, loc: Loc, scope: Scope, problems: Problems) -> None:
     """One argument of a call against its declaration."""
     if isinstance(value, str) and value.startswith("$"):
-        check_reference(value, _argument_slots(param), f"argument {param.name}", loc, scope, problems)
+        if "." in value and value[1:].partition(".")[0] in scope.slots:
+            _check_field(value, param, loc, scope, problems)
+        else:
+            _check_slot(value, _argument_slots(param), f"argument {param.name}", loc, scope, problems)
         _check_default_fits(value, param, scope, problems)
     elif param.is_number:
         _check_number(value, param, loc, scope.crew, problems)
     elif not isinstance(value, str):
-        allowed = f"the name of a {param.entity}"
+        allowed = f"the name of {_article(param.entity)}"
         problems.at(loc, f"argument {param.name} is no name", observed=show(value), allowed=allowed)
     elif value not in (valid := _names(param, scope)):
         problems.unknown(loc, f"unknown {param.entity}", value, valid)
@@ -98,24 +105,27 @@ def _names(param: Param, scope: Scope) -> list[str]:
     return scope.locations + (scope.values if SlotType.VALUE in _argument_slots(param) else [])
 
 
-def check_reference(
+def _check_field(written: str, param: Param, loc: Loc, scope: Scope, problems: Problems) -> None:
+    """`$slot.field` is a number that one of the slot's types has."""
+    name, _, field = written[1:].partition(".")
+    fields = fields_of(scope.slots[name])
+    if field not in fields:
+        problems.unknown(loc, f"slot {name} has no such field", written, [f"${name}.{known}" for known in fields])
+    elif not param.is_number:
+        allowed = _slot_words(_argument_slots(param))
+        problems.at(loc, f"argument {param.name} takes no number", observed=written, allowed=allowed)
+
+
+def _check_slot(
     written: str, wanted: AbstractSet[SlotType], purpose: str, loc: Loc, scope: Scope, problems: Problems
 ) -> None:
-    """`$slot` must be a slot of a wanted type; `$slot.field` a number that one of its types has."""
-    name, dot, field = written[1:].partition(".")
-    slot = scope.slots.get(name)
+    """`$slot` must be a slot of which some type is wanted."""
+    slot = scope.slots.get(written[1:])
     if slot is None:
         problems.unknown(loc, "unknown slot", written, [f"${known}" for known in scope.slots])
-    elif dot:
-        if field not in (fields := fields_of(slot)):
-            valid = [f"${name}.{known}" for known in fields]
-            problems.unknown(loc, f"slot {name} has no such field", written, valid)
-        elif SlotType.ALTITUDE not in wanted:
-            problems.at(loc, f"{purpose} takes no number", observed=written, allowed=_slot_words(wanted))
     elif slot.types and not wanted & set(slot.types):
         observed = f"{written}, which is {_slot_words(set(slot.types))}"
-        fix = f"write a field: {', '.join(f'${name}.{known}' for known in fields_of(slot))}" if fields_of(slot) else ""
-        problems.at(loc, f"{purpose} can't be this slot", observed=observed, allowed=_slot_words(wanted), fix=fix)
+        problems.at(loc, f"{purpose} can't be this slot", observed=observed, allowed=_slot_words(wanted))
 
 
 def _slot_words(types: AbstractSet[SlotType]) -> str:

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from msgspec.structs import replace
 
 from crew.contracts.guard import Scope, Truth, robot_fluent_is
-from crew.contracts.mission_state import MissionState, StepRecord
+from crew.contracts.mission_state import StepRecord
 from crew.contracts.plan import Call
 from crew.contracts.site import Rules
 from crew.contracts.skill import FluentLiteral, Skill
@@ -40,7 +40,7 @@ def _number(call: Call, name: str) -> float:
     return float(value)
 
 
-def unseen_effect(record: StepRecord, mission: MissionState, scope: Scope) -> str:
+def unseen_effect(record: StepRecord, scope: Scope) -> str:
     """Empty once telemetry newer than the dispatch shows every effect; otherwise the first that it does not show."""
     call = record.call
     kind = scope.rules.kind_of(call.robot)

@@ -1,5 +1,6 @@
 """What the models of contract and crew files share: strict shapes, and pydantic's complaints in plain words."""
 
+import operator
 import re
 from collections.abc import Callable
 from typing import Annotated, Any, ClassVar, NamedTuple, TypeVar
@@ -180,7 +181,7 @@ def _written(loc: Loc, root: Block) -> Loc:
     for part in loc:
         if (isinstance(node, Block) and part in node) or (isinstance(node, Items) and isinstance(part, int)):
             parts.append(part)
-            node = node[part]
+            node = operator.getitem(node, part)
     return tuple(parts)
 
 

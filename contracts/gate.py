@@ -12,7 +12,7 @@ from crew.contracts.contract import Condition
 from crew.contracts.decision import Decision
 from crew.contracts.guard import SECOND_NS, Scope, Truth, Verdict, age, evaluate, robot_fluent_is
 from crew.contracts.language.containment import Finding, check_containment
-from crew.contracts.language.reading import Reading
+from crew.contracts.language.mention import Reading
 from crew.contracts.mission_state import ACTIVE, CONSUMED, MissionState, Purpose, StepPhase, enabled
 from crew.contracts.plan import Call, Instance, InstanceStep
 from crew.contracts.refusal import Refusal, show
@@ -66,9 +66,7 @@ class Gate:
 
 def finding_refusal(finding: Finding) -> Refusal:
     """A containment finding as a refusal."""
-    return Refusal(
-        code=finding.code, message=finding.message, field=finding.field, allowed=", ".join(finding.allowed)
-    )
+    return Refusal(code=finding.code, message=finding.message, field=finding.field, allowed=", ".join(finding.allowed))
 
 
 def scope_of(mission: MissionState, world: Snapshot, rules: Rules, now_ns: int) -> Scope:
@@ -181,14 +179,15 @@ def _check_availability(call: Call, mission: MissionState, world: Snapshot, rule
     if state.lease != mission.id:
         holder = state.lease or "nobody"
         message = f"{call.robot} is leased to {holder}, not to {mission.id}"
-        return Refusal(
-            code=Code.ROBOT_LEASED, message=message, field=call.robot, observed=holder, allowed=mission.id
-        )
+        return Refusal(code=Code.ROBOT_LEASED, message=message, field=call.robot, observed=holder, allowed=mission.id)
     return None
 
 
 def _check_busy(call: Call, step: str, mission: MissionState, world: Snapshot) -> Refusal | None:
-    records: Iterable[tuple[str, object]] = [*mission.steps.items(), *((f"safe:{r}", s) for r, s in mission.safe.items())]
+    records: Iterable[tuple[str, object]] = [
+        *mission.steps.items(),
+        *((f"safe:{r}", s) for r, s in mission.safe.items()),
+    ]
     running = next(
         (
             name
@@ -276,7 +275,11 @@ def _check_deadline(mission: MissionState, rules: Rules, now_ns: int) -> Refusal
         return None
     message = f"the mission has run {spent_s:.0f} s, its contract allows {limit_s:g} s"
     return Refusal(
-        code=Code.DEADLINE_PASSED, message=message, field="deadline_s", observed=f"{spent_s:.0f} s", allowed=f"{limit_s:g} s"
+        code=Code.DEADLINE_PASSED,
+        message=message,
+        field="deadline_s",
+        observed=f"{spent_s:.0f} s",
+        allowed=f"{limit_s:g} s",
     )
 
 
@@ -309,14 +312,14 @@ def _check_values(
         if isinstance(outcome, str):
             message = f"{call.robot}.{call.skill} needs a fix of {name}: {outcome}"
             code = Code.NO_TARGET_FIX if _is_position(name, rules) else Code.NO_VALUE
-            return Refusal(code=code, message=message, field=f"args.{param.name}", observed=outcome, allowed="a fresh fix")
+            return Refusal(
+                code=code, message=message, field=f"args.{param.name}", observed=outcome, allowed="a fresh fix"
+            )
         places[param.name] = outcome
     return places
 
 
-def _usable(
-    name: str, step: str, mission: MissionState, world: Snapshot, rules: Rules, now_ns: int
-) -> Point | str:
+def _usable(name: str, step: str, mission: MissionState, world: Snapshot, rules: Rules, now_ns: int) -> Point | str:
     """A run-time value's position, or in a few words why it can't be used."""
     stamped = world.values.get(name)
     if stamped is None:

@@ -54,9 +54,7 @@ def _validated(state: MissionState, event: ev.Validated, contracts: Mapping[str,
     if verdict.refusal is not None or verdict.instance is None:
         refusal = verdict.refusal or Refusal(code=Code.MALFORMED_PLAN, message="the plan has no instance")
         return _replan(state, refusal)
-    bound = replace(
-        state, instance=verdict.instance, steps=pending_steps(verdict.instance), question=verdict.question
-    )
+    bound = replace(state, instance=verdict.instance, steps=pending_steps(verdict.instance), question=verdict.question)
     if verdict.question is not None:
         return replace(bound, phase=Phase.ASKING), (ev.AskPerson(),)
     return _wait(bound, contracts)
@@ -119,7 +117,9 @@ def _decided(state: MissionState, event: ev.Decided, contracts: Mapping[str, Con
     refusal = decision.refusal
     refused = replace(record, phase=StepPhase.REFUSED, code=refusal.code, detail=refusal.message)
     state = replace(put(state, decision.step, refused), refusal=refusal)
-    return halt(state, refusal.message, contracts) if state.sent_any else end_now(state, Phase.REJECTED, refusal.message)
+    return (
+        halt(state, refusal.message, contracts) if state.sent_any else end_now(state, Phase.REJECTED, refusal.message)
+    )
 
 
 def _outcome(state: MissionState, event: ev.Outcome, contracts: Mapping[str, Contract]) -> Result:

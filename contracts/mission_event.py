@@ -16,60 +16,60 @@ class Event(msgspec.Struct, frozen=True, kw_only=True):
     at_ns: int
 
 
-class Started(Event, tag="started"):
+class Started(Event, frozen=True, kw_only=True, tag="started"):
     """The request was read; planning may begin."""
 
 
-class Proposed(Event, tag="proposed"):
+class Proposed(Event, frozen=True, kw_only=True, tag="proposed"):
     """The planner answered with a plan."""
 
     plan: Plan
     planner: str = ""
 
 
-class PlannerFailed(Event, tag="planner_failed"):
+class PlannerFailed(Event, frozen=True, kw_only=True, tag="planner_failed"):
     """The planner abstained, answered unreadably, or did not answer."""
 
     refusal: Refusal | None = None
     reason: str
 
 
-class Validated(Event, tag="validated"):
+class Validated(Event, frozen=True, kw_only=True, tag="validated"):
     """The verdict on the whole plan."""
 
     validation: Validation
 
 
-class Answered(Event, tag="answered"):
+class Answered(Event, frozen=True, kw_only=True, tag="answered"):
     """A person answered the question. A token of another question does not count."""
 
     token: str
     yes: bool
 
 
-class Leased(Event, tag="leased"):
+class Leased(Event, frozen=True, kw_only=True, tag="leased"):
     """All robots of the instance are leased to this mission."""
 
 
-class Decided(Event, tag="decided"):
+class Decided(Event, frozen=True, kw_only=True, tag="decided"):
     """The gate's decision on one call, as a step or for a safe state."""
 
     decision: Decision
 
 
-class SafeHolds(Event, tag="safe_holds"):
+class SafeHolds(Event, frozen=True, kw_only=True, tag="safe_holds"):
     """A role's safe state holds without a call, or the contract says stay."""
 
     role: str
 
 
-class Accepted(Event, tag="accepted"):
+class Accepted(Event, frozen=True, kw_only=True, tag="accepted"):
     """The robot took the dispatch with this sequence."""
 
     sequence: int
 
 
-class Outcome(Event, tag="outcome"):
+class Outcome(Event, frozen=True, kw_only=True, tag="outcome"):
     """The robot reports the end of a dispatch: `succeeded`, `failed`, `cancelled`, `refused` or `unknown`."""
 
     sequence: int
@@ -78,31 +78,31 @@ class Outcome(Event, tag="outcome"):
     detail: str = ""
 
 
-class EffectSeen(Event, tag="effect_seen"):
+class EffectSeen(Event, frozen=True, kw_only=True, tag="effect_seen"):
     """Telemetry newer than the dispatch shows the effects of a dispatch."""
 
     sequence: int
 
 
-class CompletionJudged(Event, tag="completion_judged"):
+class CompletionJudged(Event, frozen=True, kw_only=True, tag="completion_judged"):
     """Whether the contract's completion conditions hold, now that every step is done."""
 
     missing: str = ""
 
 
-class CancelAsked(Event, tag="cancel_asked"):
+class CancelAsked(Event, frozen=True, kw_only=True, tag="cancel_asked"):
     """A person, or a contract that preempts, ends the mission."""
 
     by: str
 
 
-class StoppedAll(Event, tag="stopped_all"):
+class StoppedAll(Event, frozen=True, kw_only=True, tag="stopped_all"):
     """A stop latched robots of this mission."""
 
     by: str
 
 
-class DeadlineHit(Event, tag="deadline_hit"):
+class DeadlineHit(Event, frozen=True, kw_only=True, tag="deadline_hit"):
     """The contract's deadline passed."""
 
 
@@ -129,38 +129,38 @@ class Effect(msgspec.Struct, frozen=True, kw_only=True):
     """Base of what the shell is asked to do."""
 
 
-class AskPlanner(Effect, tag="ask_planner"):
+class AskPlanner(Effect, frozen=True, kw_only=True, tag="ask_planner"):
     """Ask for a plan, with the refusal of the last one as feedback."""
 
     feedback: Refusal | None = None
 
 
-class ValidatePlan(Effect, tag="validate_plan"):
+class ValidatePlan(Effect, frozen=True, kw_only=True, tag="validate_plan"):
     plan: Plan
 
 
-class AskPerson(Effect, tag="ask_person"):
+class AskPerson(Effect, frozen=True, kw_only=True, tag="ask_person"):
     """Publish the mission's question."""
 
 
-class TakeLeases(Effect, tag="take_leases"):
+class TakeLeases(Effect, frozen=True, kw_only=True, tag="take_leases"):
     robots: tuple[str, ...]
     preempts: bool = False
 
 
-class Authorise(Effect, tag="authorise"):
+class Authorise(Effect, frozen=True, kw_only=True, tag="authorise"):
     """Pass one step's call through the gate now."""
 
     step: str
 
 
-class MakeSafe(Effect, tag="make_safe"):
+class MakeSafe(Effect, frozen=True, kw_only=True, tag="make_safe"):
     """Bring a role to its safe state: nothing if it holds, otherwise its call through the same gate."""
 
     role: str
 
 
-class Send(Effect, tag="send"):
+class Send(Effect, frozen=True, kw_only=True, tag="send"):
     """Commit the intent, then put the dispatch on the robot's actuation key."""
 
     sequence: int
@@ -169,24 +169,24 @@ class Send(Effect, tag="send"):
     places: Mapping[str, object] = {}
 
 
-class CancelRunning(Effect, tag="cancel_running"):
+class CancelRunning(Effect, frozen=True, kw_only=True, tag="cancel_running"):
     """Ask the robot to cancel the dispatch with this sequence."""
 
     robot: str
     sequence: int
 
 
-class WatchEffect(Effect, tag="watch_effect"):
+class WatchEffect(Effect, frozen=True, kw_only=True, tag="watch_effect"):
     """Look for the dispatch's effect in telemetry, for a bounded time."""
 
     sequence: int
 
 
-class JudgeCompletion(Effect, tag="judge_completion"):
+class JudgeCompletion(Effect, frozen=True, kw_only=True, tag="judge_completion"):
     """Evaluate the contract's completion conditions."""
 
 
-class Finish(Effect, tag="finish"):
+class Finish(Effect, frozen=True, kw_only=True, tag="finish"):
     """The mission has ended: release its leases and say so."""
 
 

@@ -5,7 +5,7 @@ from enum import StrEnum
 
 import msgspec
 
-from crew.contracts.language.reading import Reading
+from crew.contracts.language.mention import Reading
 from crew.contracts.plan import Call, Instance, Plan
 from crew.contracts.refusal import Refusal
 from crew.contracts.snapshot import Point

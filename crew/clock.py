@@ -79,6 +79,19 @@ class WallClock:
         yield
 
 
+class Wall(WallClock):
+    """Wall time, for what the design keeps on it: liveliness, heartbeats, stop, network, models."""
+
+    async def race(self, awaitable: Awaitable[object], seconds: float) -> bool:
+        """Await, for at most `seconds`; whether it ended in time."""
+        try:
+            async with asyncio.timeout(seconds):
+                await awaitable
+        except TimeoutError:
+            return False
+        return True
+
+
 class SimClock:
     """Mission time in simulation: it moves only when the simulation's tick arrives, and wakes sleepers in order."""
 
@@ -126,3 +139,11 @@ class SimClock:
             _, _, future = heapq.heappop(self._sleepers)
             if not future.done():
                 future.set_result(None)
+
+
+WALL = Wall()
+
+
+async def turn() -> None:
+    """Give the loop one turn."""
+    await asyncio.sleep(0)

@@ -7,13 +7,15 @@ import asyncio
 from collections.abc import Callable
 
 from crew.bus.port import Bus, Qos
-from crew.clock import SimClock
+from crew.clock import WALL, SimClock, turn
 from crew.keys import Keys
 from crew.mailbox import KeepLatest, Letter, letters
 from crew.messages import ClockAck, ClockTick
 
 HOLD_EVERY_S = 0.25
 """Wall time between two signs of life while a slice is withheld; the simulation drops a participant silent for 1 s."""
+LOST_AFTER_S = 0.5
+"""Wall time after which a datagram of the vendor's link counts as lost."""
 TURNS = 3
 """Turns of the loop that timers and mailboxes get before a slice counts as done."""
 
@@ -39,6 +41,7 @@ class Participant:
         self._ticks: KeepLatest[Letter[ClockTick]] = KeepLatest(letters(ClockTick))
         self._subscription = bus.subscribe(keys.clock, self._ticks)
         self._acks = bus.publisher(keys.clock_ack(name), qos=Qos.EVENT)
+        self._lost = 0
         self.slices = 0
 
     def notice_traffic(self) -> None:
@@ -54,33 +57,32 @@ class Participant:
     async def _say_until_first_tick(self) -> None:
         while True:
             self._ack(-1)
-            try:
-                async with asyncio.timeout(HOLD_EVERY_S):
-                    await self._ticks.changed()
-                    return
-            except TimeoutError:
-                continue
+            if await WALL.race(self._ticks.changed(), HOLD_EVERY_S):
+                return
 
     async def _take_slice(self, tick: ClockTick) -> None:
-        expected = tick.datagrams.get(self._name, 0)
-        await self._hold(tick.slice, lambda: self._counts()[1] >= expected, self._traffic)
+        await self._await_datagrams(tick)
         self._clock.advance(tick.now_ns)
         for _ in range(TURNS):
-            await asyncio.sleep(0)
+            await turn()
         while self._clock.is_busy:
             await self._hold(tick.slice, lambda: not self._clock.is_busy, self._clock.idle_event)
-            await asyncio.sleep(0)
+            await turn()
         self.slices += 1
         self._ack(tick.slice)
+
+    async def _await_datagrams(self, tick: ClockTick) -> None:
+        """Wait for what the simulation sent to this link; what has not come after a while counts as lost for good."""
+        expected = tick.datagrams.get(self._name, 0)
+        arrived = self._hold(tick.slice, lambda: self._counts()[1] + self._lost >= expected, self._traffic)
+        if not await WALL.race(arrived, LOST_AFTER_S):
+            self._lost = expected - self._counts()[1]
 
     async def _hold(self, number: int, done: Callable[[], bool], event: asyncio.Event) -> None:
         """Wait until `done`, showing a sign of life now and then."""
         while not done():
             event.clear()
-            try:
-                async with asyncio.timeout(HOLD_EVERY_S):
-                    await event.wait()
-            except TimeoutError:
+            if not await WALL.race(event.wait(), HOLD_EVERY_S):
                 self._ack(number, holding=True)
 
     def _ack(self, number: int, *, holding: bool = False) -> None:

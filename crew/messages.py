@@ -112,6 +112,9 @@ class CancelSkill(Message, frozen=True, kw_only=True):
 
 # --- stop and reset
 
+RESET = "crew.reset"
+"""The purpose that a reset's signature is bound to."""
+
 
 class Stop(Message, frozen=True, kw_only=True):
     """Stop and latch. Robots stop for any sample on the stop key, readable or not."""
@@ -135,7 +138,7 @@ class Reset(Message, frozen=True, kw_only=True):
 
     def signed_part(self, crew: str) -> bytes:
         """What the signature covers."""
-        return "\n".join(("crew.reset/1", crew, self.by, str(self.epoch), ",".join(self.targets), self.nonce)).encode()
+        return "\n".join((crew, self.by, str(self.epoch), ",".join(self.targets), self.nonce)).encode()
 
 
 # --- orchestrator, planner, gateway

@@ -2,8 +2,6 @@
 
 from collections.abc import Mapping
 
-import msgspec
-
 from crew.bus.port import Bus, Qos
 from crew.bus.zenoh import ZenohBus
 from crew.clock import turn
@@ -12,24 +10,13 @@ from crew.keys import Keys
 from crew.mailbox import Events, Letter, letters
 from crew.messages import ClockAck, ClockTick, SimFault, SimTruth
 from crew.process import ChildContext, run_child
-from crew.sim.config import WorldConfig
 from crew.sim.pace import Lockstep, Pace
+from crew.sim.spec import SimulationSpec
 from crew.sim.world import World
 
 SLICE_NS = 50_000_000
 TRUTH_EVERY = 2
 """Slices between two messages of truth."""
-
-
-class SimulationSpec(msgspec.Struct, frozen=True, kw_only=True):
-    """What the simulation process is started with. `speed` 0 is lockstep: as fast as everybody can follow."""
-
-    crew: str
-    router: str
-    world: WorldConfig
-    vehicles: Mapping[str, str]
-    """Robot to the vehicle of the scene that it is."""
-    speed: float
 
 
 class Simulation:

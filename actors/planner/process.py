@@ -7,6 +7,7 @@ from typing import Protocol
 import msgspec
 
 from crew.actors.planner.embedded import Abstention, PlannerState, propose
+from crew.actors.specs import PlannerSpec
 from crew.bus.port import Bus, Qos
 from crew.bus.zenoh import ZenohBus
 from crew.contracts.plan import Plan
@@ -16,17 +17,8 @@ from crew.keys import Keys
 from crew.library import read_text
 from crew.mailbox import Events, Letter, letters
 from crew.messages import PlannerAsk, PlannerProposal
-from crew.packed import PackedRules, unpack
+from crew.packed import unpack
 from crew.process import ChildContext, run_child
-
-
-class PlannerSpec(msgspec.Struct, frozen=True, kw_only=True):
-    """What the planner's process is started with. `script` is a JSON file with a list of plans."""
-
-    rules: PackedRules
-    router: str
-    planner: str
-    script: str = ""
 
 
 class Backend(Protocol):

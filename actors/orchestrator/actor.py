@@ -1,0 +1,289 @@
+"""The orchestrator on the bus: what it hears, what it answers, and the heartbeat that says that its loop turns."""
+
+import asyncio
+from collections import Counter
+from collections.abc import Coroutine
+from typing import Any
+
+from crew.actors.orchestrator.announcer import Announcer
+from crew.actors.orchestrator.flight import Dispatcher
+from crew.actors.orchestrator.lease import LeaseTable
+from crew.actors.orchestrator.ledger import Ledger
+from crew.actors.orchestrator.planning import PlannerDesk
+from crew.actors.orchestrator.shell import MissionShell, is_idle
+from crew.actors.orchestrator.world import WorldFold
+from crew.bus.port import Body, Bus, Qos, Sample
+from crew.clock import WALL, Clock
+from crew.contracts import mission_event as ev
+from crew.contracts.decision import Authorizer
+from crew.contracts.language.lexicon import build_lexicon
+from crew.contracts.language.reading import read_request
+from crew.contracts.mission_state import MissionState
+from crew.contracts.site import Rules
+from crew.errors import CrewError
+from crew.keys import Keys
+from crew.mailbox import Events, KeepLatest, Letter, Mailbox, letters
+from crew.messages import (
+    Answer,
+    CancelMission,
+    CrewStatus,
+    Heartbeat,
+    Intake,
+    MissionStatus,
+    RobotCard,
+    RobotEvent,
+    RobotState,
+    RobotValue,
+    Stop,
+)
+from crew.wire import Message, decode
+
+HEARTBEAT_EVERY_S = 0.2
+WATCH_EVERY_S = 0.2
+MAX_OPEN = 16
+EVENTS_CAPACITY = 4096
+
+
+class Orchestrator:
+    """The only actor that may actuate. `run()` lives until it is cancelled or its journal fails."""
+
+    def __init__(
+        self,
+        bus: Bus,
+        keys: Keys,
+        rules: Rules,
+        clock: Clock,
+        ledger: Ledger,
+        authorizer: Authorizer,
+        *,
+        epoch: int,
+        run: str,
+    ) -> None:
+        self._bus, self._keys, self._rules, self._clock = bus, keys, rules, clock
+        self._ledger, self._epoch, self._run = ledger, epoch, run
+        self._lexicon = build_lexicon(rules)
+        self._world, self._leases = WorldFold(rules), LeaseTable()
+        self._announcer = Announcer(bus, keys, rules, clock)
+        self._tasks: dict[str, set[asyncio.Task[None]]] = {}
+        self._lost: dict[str, str] = {}
+        self._boxes: list[Mailbox[Any]] = []
+        self._lost_messages: Counter[str] = Counter()
+        self._stops: asyncio.Queue[str] = asyncio.Queue()
+        self._group: asyncio.TaskGroup
+        self.shell = MissionShell(
+            rules,
+            clock,
+            self._world,
+            self._leases,
+            ledger,
+            authorizer,
+            self._announcer,
+            lambda mission, effect: self._desk.ask(mission, effect),
+            self._spawn,
+            self._end_tasks,
+        )
+        self._desk = PlannerDesk(bus, keys, clock, rules, self._world, self._leases, self.shell.feed, self._spawn)
+        self.shell.dispatcher = Dispatcher(
+            bus, keys, clock, ledger, self._world, rules, epoch, self.shell.feed, self._spawn
+        )
+
+    @property
+    def idle(self) -> bool:
+        """No mission is under way, or all of them wait for a person."""
+        return all(is_idle(m) for m in self.shell.open)
+
+    async def run(self) -> None:
+        """Serve until cancelled."""
+        keys, bus = self._keys, self._bus
+        loop = asyncio.get_running_loop()
+        states: KeepLatest[Letter[RobotState]] = KeepLatest(letters(RobotState))
+        cards: KeepLatest[Letter[RobotCard]] = KeepLatest(letters(RobotCard))
+        values = self._events(RobotValue)
+        events = self._events(RobotEvent)
+        people = self._events(Intake, Answer, CancelMission)
+        bus.subscribe(keys.robot_states, states)
+        bus.subscribe(keys.robot_cards, cards)
+        bus.subscribe(keys.robot_values, values)
+        bus.subscribe(keys.robot_events, events)
+        for key in (keys.intake, keys.mission_confirms, keys.mission_cancels):
+            bus.subscribe(key, people)
+        bus.on_sample(keys.stop, lambda sample: _hand_over(loop, self._stops, sample))
+        bus.watch_liveliness(keys.all_alive, self._on_liveliness)
+        bus.queryable(keys.status, self._status)
+        self._boxes += [states, cards]
+        async with asyncio.TaskGroup() as self._group:
+            self._group.create_task(self._hear_states(states))
+            self._group.create_task(self._hear_cards(cards))
+            self._group.create_task(self._hear_values(values))
+            self._group.create_task(self._hear_events(events))
+            self._group.create_task(self._hear_people(people))
+            self._group.create_task(self._hear_stops())
+            self._group.create_task(self._desk.run())
+            self._group.create_task(self._watch_robots())
+            self._group.create_task(self._beat())
+
+    # --- hearing
+
+    async def _hear_states(self, box: KeepLatest[Letter[RobotState]]) -> None:
+        async for letter in box:
+            self._world.take_state(letter.message, self._clock.now_ns())
+
+    async def _hear_cards(self, box: KeepLatest[Letter[RobotCard]]) -> None:
+        async for letter in box:
+            if self._world.take_card(letter.message):
+                robot = letter.message.robot
+                self._ledger.note("reboot", f"{robot} has started anew")
+                self.shell.dispatcher.lose(robot, f"{robot} has started anew")
+
+    async def _hear_values(self, box: Events[Letter[RobotValue]]) -> None:
+        async for letter in box:
+            value = letter.message
+            if not self._world.take_value(value, self._clock.now_ns()):
+                self._ledger.note("value_refused", f"{value.robot} may not publish {value.reading.name}")
+                continue
+            for mission in self.shell.open:
+                if mission.instance is not None and value.robot in mission.instance.roles.values():
+                    self._announcer.value(mission, value.reading, value.robot)
+
+    async def _hear_events(self, box: Events[Letter[RobotEvent]]) -> None:
+        async for letter in box:
+            event = letter.message
+            self._world.take_event(event)
+            if event.mission:
+                self.shell.dispatcher.hear(event)
+            else:
+                self._ledger.note(event.what, f"{event.robot}: {event.what} {event.detail}".strip())
+
+    async def _hear_people(self, box: Events[Letter[Message]]) -> None:
+        async for letter in box:
+            mission = letter.key.split("/")[3] if "/mission/" in letter.key else ""
+            match letter.message:
+                case Intake() as intake:
+                    self._take_request(intake)
+                case Answer() as answer:
+                    at_ns = self._clock.now_ns()
+                    self.shell.feed(mission, ev.Answered(at_ns=at_ns, token=answer.token, yes=answer.yes))
+                case CancelMission() as cancel:
+                    self.shell.cancel(mission, by=cancel.by or "a person")
+
+    async def _hear_stops(self) -> None:
+        while True:
+            by = await self._stops.get()
+            self._world.stopped = True
+            self._ledger.note("stop", f"stop by {by}")
+            self.shell.stop(by)
+
+    def _take_request(self, intake: Intake) -> None:
+        if intake.mission in self.shell.missions:
+            return
+        reading = read_request(intake.text, self._lexicon)
+        mission = MissionState(
+            id=intake.mission,
+            request=intake.text,
+            request_id=intake.request_id,
+            reading=reading,
+            epoch=self._epoch,
+        )
+        full = len(self.shell.open) >= MAX_OPEN
+        self.shell.begin(mission)
+        if full:
+            self.shell.cancel(mission.id, by=f"the orchestrator: {MAX_OPEN} missions are open already")
+
+    def _on_liveliness(self, key: str, alive: bool) -> None:
+        name = self._keys.name_in(key)
+        if name == "simulation":
+            for spec in self._rules.crew.robots:
+                self._world.take_liveliness(spec.name, alive)
+        elif self._world.knows(name):
+            self._world.take_liveliness(name, alive)
+
+    # --- telling
+
+    async def _beat(self) -> None:
+        count = 0
+        token = self._bus.token(self._keys.alive("orchestrator"))
+        publisher = self._bus.publisher(self._keys.heartbeat(), qos=Qos.EVENT)
+        try:
+            while True:
+                count += 1
+                publisher.put(Heartbeat(name="orchestrator", epoch=self._epoch, count=count))
+                await WALL.sleep(HEARTBEAT_EVERY_S)
+        finally:
+            token.close()
+
+    async def _watch_robots(self) -> None:
+        """Notice robots that are lost, and a stop that has been released everywhere."""
+        while True:
+            for spec in self._rules.crew.robots:
+                why = self._world.lost(spec.name)
+                if why and not self._lost.get(spec.name):
+                    self.shell.dispatcher.lose(spec.name, why)
+                self._lost[spec.name] = why
+            if self._world.stopped and self._world.all_released():
+                self._world.stopped = False
+                self._ledger.note("released", "no robot is stopped any more")
+            await WALL.sleep(WATCH_EVERY_S)
+
+    async def _status(self, sample: Sample) -> Body:
+        dropped: Counter[str] = Counter(self._lost_messages)
+        for box in self._boxes:
+            dropped.update({str(reason): count for reason, count in box.refusals.items()})
+        return CrewStatus(
+            crew=self._rules.crew.name,
+            run=self._run,
+            epoch=self._epoch,
+            at_ns=self._clock.now_ns(),
+            stopped=self._world.stopped,
+            robots=self._world.status(self._leases.held),
+            missions=tuple(_mission_status(m) for m in self.shell.missions.values()),
+            dropped=dict(dropped),
+        )
+
+    # --- tasks
+
+    def _events(self, *types: type[Any]) -> Events[Any]:
+        name = types[0].__name__
+
+        def lost(count: int) -> None:
+            self._lost_messages[f"lost_{name}"] += count
+            self._ledger.note("overflow", f"{count} messages of {name} were lost: too many at once")
+
+        box: Events[Any] = Events(letters(*types), capacity=EVENTS_CAPACITY, on_lost=lost)
+        self._boxes.append(box)
+        return box
+
+    def _spawn(self, mission: str, work: Coroutine[Any, Any, None]) -> None:
+        task = self._group.create_task(work)
+        self._tasks.setdefault(mission, set()).add(task)
+        task.add_done_callback(self._tasks[mission].discard)
+
+    def _end_tasks(self, mission: str) -> None:
+        for task in self._tasks.pop(mission, set()):
+            if task is not asyncio.current_task():
+                task.cancel()
+
+
+def _mission_status(mission: MissionState) -> MissionStatus:
+    question = mission.question if mission.phase == "asking" else None
+    return MissionStatus(
+        mission=mission.id,
+        request=mission.request[:200],
+        phase=mission.phase,
+        contract=mission.contract,
+        message=mission.message,
+        question="" if question is None else question.text,
+        token="" if question is None else question.token,
+    )
+
+
+def _hand_over(loop: asyncio.AbstractEventLoop, stops: asyncio.Queue[str], sample: Sample) -> None:
+    """From the bus's thread to the loop."""
+    if not loop.is_closed():
+        loop.call_soon_threadsafe(stops.put_nowait, _who(sample))
+
+
+def _who(sample: Sample) -> str:
+    try:
+        return decode(Stop, sample.payload, sample.encoding).by
+    except CrewError:
+        return "an unreadable stop message"

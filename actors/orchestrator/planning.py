@@ -1,0 +1,107 @@
+"""The orchestrator's side of planning: asks, waits for a bounded time, and passes on whatever comes as a proposal."""
+
+import asyncio
+from collections.abc import Callable, Coroutine
+from typing import Any
+
+from crew.actors.orchestrator.lease import LeaseTable
+from crew.actors.orchestrator.world import WorldFold
+from crew.bus.port import Bus, Qos
+from crew.clock import WALL, Clock
+from crew.contracts import mission_event as ev
+from crew.contracts.codes import Code
+from crew.contracts.mission_state import MissionState
+from crew.contracts.refusal import Refusal
+from crew.contracts.site import Rules
+from crew.contracts.snapshot import Snapshot
+from crew.keys import Keys
+from crew.mailbox import Events, Letter, letters
+from crew.messages import PlannerAsk, PlannerProposal
+
+BUDGET_S = 60.0
+"""Wall time for one proposal."""
+
+Feed = Callable[[str, ev.AnyEvent], None]
+Spawn = Callable[[str, Coroutine[Any, Any, None]], None]
+
+
+class PlannerDesk:
+    """One open question to the planner for each mission; answers to others are ignored."""
+
+    def __init__(
+        self,
+        bus: Bus,
+        keys: Keys,
+        clock: Clock,
+        rules: Rules,
+        world: WorldFold,
+        leases: LeaseTable,
+        feed: Feed,
+        spawn: Spawn,
+    ) -> None:
+        self._bus, self._keys, self._clock, self._rules = bus, keys, clock, rules
+        self._world, self._leases, self._feed, self._spawn = world, leases, feed, spawn
+        self._open: dict[tuple[str, int], asyncio.Future[PlannerProposal]] = {}
+        self._box: Events[Letter[PlannerProposal]] = Events(
+            letters(PlannerProposal), capacity=64, on_lost=lambda _: None
+        )
+        bus.subscribe(keys.planner_proposal, self._box)
+
+    def ask(self, mission: MissionState, effect: ev.AskPlanner) -> None:
+        """Ask for a plan; the answer, or its absence, comes back as an event."""
+        self._spawn(mission.id, self._await(mission, effect.feedback))
+
+    async def run(self) -> None:
+        """Hear proposals until cancelled."""
+        async for letter in self._box:
+            future = self._open.get((letter.message.mission, letter.message.attempt))
+            if future is not None and not future.done():
+                future.set_result(letter.message)
+
+    async def _await(self, mission: MissionState, feedback: Refusal | None) -> None:
+        future: asyncio.Future[PlannerProposal] = asyncio.get_running_loop().create_future()
+        key = (mission.id, mission.replans)
+        self._open[key] = future
+        try:
+            with self._clock.busy():
+                self._bus.put(self._keys.planner_ask, self._question(mission, feedback), qos=Qos.EVENT)
+                in_time = await WALL.race(future, BUDGET_S)
+        finally:
+            del self._open[key]
+        if in_time:
+            self._pass_on(future.result())
+            return
+        reason = f"no proposal within {BUDGET_S:g} s; is the planner running? (crew status)"
+        self._feed(mission.id, ev.PlannerFailed(at_ns=self._clock.now_ns(), reason=reason))
+
+    def _pass_on(self, proposal: PlannerProposal) -> None:
+        at_ns = self._clock.now_ns()
+        if proposal.plan is not None:
+            event: ev.AnyEvent = ev.Proposed(at_ns=at_ns, plan=proposal.plan, planner=proposal.planner)
+        else:
+            refusal = Refusal(code=Code.MALFORMED_PLAN, message=proposal.reason, field="plan")
+            event = ev.PlannerFailed(
+                at_ns=at_ns, reason=proposal.reason, refusal=refusal if proposal.unreadable else None
+            )
+        self._feed(proposal.mission, event)
+
+    def _question(self, mission: MissionState, feedback: Refusal | None) -> PlannerAsk:
+        world = self._world.snapshot(self._leases.held)
+        return PlannerAsk(
+            mission=mission.id,
+            attempt=mission.replans,
+            request=mission.request,
+            feedback=feedback,
+            airborne=known_airborne(world),
+            values={name: stamped.reading.status for name, stamped in world.values.items()},
+        )
+
+
+def known_airborne(world: Snapshot) -> dict[str, bool]:
+    """Which robots are known to be in the air, or not: typed state that a planner may see."""
+    found = {}
+    for name, robot in world.robots.items():
+        stamped = robot.fluents.get("airborne")
+        if stamped is not None and isinstance(stamped.value, bool):
+            found[name] = stamped.value
+    return found

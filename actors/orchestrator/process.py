@@ -1,0 +1,81 @@
+"""The orchestrator's process: journal, keys, epoch, clock and bus around the actor."""
+
+import asyncio
+from importlib.metadata import version
+from pathlib import Path
+
+from crew.actors.orchestrator.actor import Orchestrator
+from crew.actors.orchestrator.ledger import Ledger
+from crew.actors.specs import OrchestratorSpec
+from crew.bus.port import Bus
+from crew.bus.zenoh import ZenohBus
+from crew.clock import SimClock, WallClock
+from crew.contracts.gate import Gate
+from crew.contracts.site import Rules
+from crew.errors import JournalError
+from crew.home import Home
+from crew.journal import Journal
+from crew.keys import Keys
+from crew.lockstep import Participant
+from crew.packed import pack, unpack
+from crew.process import ChildContext, run_child
+from crew.records import RunRecord
+from crew.signing import load_or_create_key
+
+JOURNAL_KEY = "orchestrator"
+
+
+async def main(context: ChildContext) -> None:
+    """Serve until asked to stop. A journal that fails ends the process: robots then do what they declare."""
+    spec = context.spec(OrchestratorSpec)
+    rules = unpack(spec.rules)
+    async with ZenohBus("orchestrator", [spec.router]) as bus:
+        await serve(spec, rules, bus, context)
+
+
+async def serve(spec: OrchestratorSpec, rules: Rules, bus: Bus, context: ChildContext) -> None:
+    """Open the journal and run the actor on a bus that is already there."""
+    home, run = Home(Path(spec.home)), Path(spec.run_folder).name
+    keys = Keys(rules.crew.name)
+    loop, failed = asyncio.get_running_loop(), asyncio.Event()
+    key = load_or_create_key(home.keys, JOURNAL_KEY)
+    clock = SimClock() if spec.simulated else WallClock()
+    with Journal(
+        Path(spec.run_folder) / "journal.db",
+        run_id=run,
+        key=key,
+        outside_head=home.head(run),
+        on_failure=lambda _: loop.call_soon_threadsafe(failed.set),
+    ) as journal:
+        ledger = Ledger(journal, clock)
+        ledger.write(run_record(spec, rules, run))
+        actor = Orchestrator(bus, keys, rules, clock, ledger, Gate(), epoch=spec.epoch, run=run)
+        async with asyncio.TaskGroup() as group:
+            group.create_task(_end_on(failed, journal))
+            group.create_task(actor.run())
+            if isinstance(clock, SimClock):
+                follower = Participant(bus, keys, "orchestrator", clock, idle=lambda: actor.idle)
+                group.create_task(follower.run())
+            context.ready()
+
+
+async def _end_on(failed: asyncio.Event, journal: Journal) -> None:
+    await failed.wait()
+    raise JournalError(f"{journal.path} could not be written; nothing is dispatched without its intent on disk")
+
+
+def run_record(spec: OrchestratorSpec, rules: Rules, run: str) -> RunRecord:
+    """The journal's first record."""
+    return RunRecord(
+        run=run,
+        version=version("robot-crew"),
+        epoch=spec.epoch,
+        authorizer="gate",
+        planner=spec.planner,
+        rules=pack(rules),
+        rules_digest=rules.digest(),
+    )
+
+
+if __name__ == "__main__":
+    run_child(main)

@@ -1,0 +1,1 @@
+"""The robot actor: one robot, one adapter, one latch."""

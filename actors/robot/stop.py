@@ -1,0 +1,82 @@
+"""Stop and reset of one robot. The stop acts in the bus's own thread, past the event loop; release needs a signature."""
+
+import asyncio
+from typing import TYPE_CHECKING
+
+from crew.adapter import Adapter
+from crew.bus.port import Bus, Sample
+from crew.keys import Keys
+from crew.mailbox import Events, Letter, letters
+from crew.messages import RESET, Reset
+from crew.signing import verify
+
+if TYPE_CHECKING:
+    from crew.actors.robot.actor import RobotActor
+
+
+class StopSwitch:
+    """Any sample on the stop key stops and latches, readable or not."""
+
+    def __init__(self, bus: Bus, keys: Keys, actor: "RobotActor", adapter: Adapter, operator_key: bytes) -> None:
+        self._actor, self._adapter, self._keys = actor, adapter, keys
+        self._operator_key = operator_key
+        self._loop = asyncio.get_running_loop()
+        self._stopped = asyncio.Event()
+        self._nonces: set[str] = set()
+        self._resets: Events[Letter[Reset]] = Events(letters(Reset), capacity=16, on_lost=lambda _: None)
+        self._declared = [bus.on_sample(keys.stop, self._on_stop), bus.subscribe(keys.reset, self._resets)]
+        self.acting = False
+        """The declared behaviour of a stop is under way."""
+
+    async def run(self) -> None:
+        """Carry out declared behaviours after a stop, and judge resets, until cancelled."""
+        try:
+            async with asyncio.TaskGroup() as group:
+                group.create_task(self._behave())
+                async for letter in self._resets:
+                    self._judge(letter.message)
+        finally:
+            for declaration in self._declared:
+                declaration.close()
+
+    def _on_stop(self, sample: Sample) -> None:
+        """In the bus's thread: latch and halt first, tell the loop afterwards."""
+        self._adapter.halt()
+        if not self._loop.is_closed():
+            self._loop.call_soon_threadsafe(self._stopped.set)
+
+    async def _behave(self) -> None:
+        while True:
+            await self._stopped.wait()
+            self._stopped.clear()
+            self.acting = True
+            behaviour = self._actor.behaviour("on_stop")
+            self._actor.report.event("stopped", code="stopped", detail=f"latched; {behaviour}")
+            self._actor.report.state()
+            await self._actor.interrupt("stopped")
+            await self._actor.make_safe(behaviour)
+            self.acting = False
+            self._actor.report.state()
+
+    def _judge(self, reset: Reset) -> None:
+        problem = self._problem(reset)
+        if problem:
+            self._actor.report.event("reset_refused", code="reset_refused", detail=problem)
+            return
+        self._nonces.add(reset.nonce)
+        self._adapter.release()
+        self._actor.report.event("released", detail=f"by {reset.by}")
+        self._actor.report.state()
+
+    def _problem(self, reset: Reset) -> str:
+        if self._actor.name not in reset.targets:
+            return f"not among the targets {', '.join(reset.targets)}"
+        if not verify(self._operator_key, RESET, reset.signed_part(self._keys.crew), reset.signature):
+            return "the signature is not the operator's"
+        if reset.epoch != self._actor.admission.epoch:
+            return f"for epoch {reset.epoch}, the crew's epoch is {self._actor.admission.epoch}"
+        if reset.nonce in self._nonces:
+            return "this reset was used before"
+        if self.acting:
+            return "the robot is still carrying out its stop; wait until it stands still"
+        return ""

@@ -1,0 +1,44 @@
+"""What each actor's process is started with: written by the launcher, read by the process. Imports no actor."""
+
+import msgspec
+
+from crew.packed import PackedRules
+
+
+class OrchestratorSpec(msgspec.Struct, frozen=True, kw_only=True):
+    """What the orchestrator's process is started with."""
+
+    rules: PackedRules
+    router: str
+    run_folder: str
+    home: str
+    epoch: int
+    planner: str
+    simulated: bool
+
+
+class RobotActorSpec(msgspec.Struct, frozen=True, kw_only=True):
+    """What a robot's process is started with. `connection` is the adapter's side of the vendor's link."""
+
+    rules: PackedRules
+    robot: str
+    router: str
+    connection: str
+    simulated: bool
+    operator_key: bytes
+
+
+class PlannerSpec(msgspec.Struct, frozen=True, kw_only=True):
+    """What the planner's process is started with. `script` is a JSON file with a list of plans."""
+
+    rules: PackedRules
+    router: str
+    planner: str
+    script: str = ""
+
+
+class GatewaySpec(msgspec.Struct, frozen=True, kw_only=True):
+    """What the gateway's process is started with."""
+
+    crew: str
+    router: str

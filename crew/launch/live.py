@@ -1,0 +1,103 @@
+"""A crew that lives for the time of an `async with`: folders, claim, processes, readiness, and an orderly end."""
+
+import asyncio
+import json
+import time
+from collections.abc import AsyncIterator
+from contextlib import AsyncExitStack, asynccontextmanager
+from pathlib import Path
+
+from crew.bus.port import Bus
+from crew.bus.zenoh import ZenohBus
+from crew.contracts.site import Rules
+from crew.errors import UsageError
+from crew.home import Home
+from crew.keys import Keys
+from crew.launch.options import LaunchOptions
+from crew.launch.ready import await_ready
+from crew.launch.single import SingleProcess
+from crew.launch.site import resolve
+from crew.launch.table import free_tcp_port, process_table
+from crew.messages import CrewStatus
+from crew.signing import load_or_create_key
+from crew.supervisor import Exit, Supervisor
+
+READY_S = 20.0
+OPERATOR = "operator"
+UNSECURED = "UNSECURED: simulation only (any process on this machine can reach the bus)"
+
+
+class LiveCrew:
+    """A crew that is up: where it is, what it was made from, and who has died since."""
+
+    def __init__(
+        self, rules: Rules, run_folder: Path, router: str, bus: Bus, exits: "asyncio.Queue[Exit]", pids: dict[str, int]
+    ) -> None:
+        self.rules, self.run_folder, self.router = rules, run_folder, router
+        self.bus, self.exits, self.pids = bus, exits, pids
+        self.keys = Keys(rules.crew.name)
+        self.status: CrewStatus
+
+    @property
+    def name(self) -> str:
+        return self.rules.crew.name
+
+
+@asynccontextmanager
+async def live_crew(options: LaunchOptions, home: Home) -> AsyncIterator[LiveCrew]:
+    """Bring a crew up; yield it once a round trip through its keys has shown every robot; bring it down."""
+    rules = resolve(options)
+    port = options.port or free_tcp_port()
+    router = f"tcp/127.0.0.1:{port}"
+    run_folder = new_run_folder(options.runs, rules.crew.name)
+    exits: asyncio.Queue[Exit] = asyncio.Queue()
+    async with AsyncExitStack() as stack:
+        stack.enter_context(home.claim(rules.crew.name, run_folder, router))
+        _write_resolved(rules, options, run_folder)
+        children = process_table(
+            rules,
+            options,
+            router=router,
+            run_folder=run_folder,
+            home=home.path.absolute(),
+            epoch=home.next_epoch(rules.crew.name),
+            operator_key=load_or_create_key(home.keys, OPERATOR).public,
+        )
+        if options.single_process:
+            runner: Supervisor | SingleProcess = SingleProcess(run_folder)
+        else:
+            runner = Supervisor(run_folder, on_exit=exits.put_nowait)
+        await stack.enter_async_context(runner)
+        await runner.start(children, ready_timeout_s=READY_S)
+        bus = await stack.enter_async_context(ZenohBus("operator", [router]))
+        crew = LiveCrew(rules, run_folder, router, bus, exits, runner.pids)
+        crew.status = await await_ready(bus, crew.keys, [r.name for r in rules.crew.robots], timeout_s=READY_S)
+        yield crew
+
+
+def new_run_folder(runs: Path, crew: str) -> Path:
+    """`runs/<time>-<crew>`, made now. Raises UsageError if it can't be."""
+    stamp = time.strftime("%Y%m%d-%H%M%S", time.gmtime())
+    for suffix in ("", *(f"-{n}" for n in range(2, 100))):
+        folder = (runs / f"{stamp}-{crew}{suffix}").absolute()
+        try:
+            folder.mkdir(parents=True)
+        except FileExistsError:
+            continue
+        except OSError as error:
+            raise UsageError(f"cannot make {folder}: {error.strerror}; choose another folder with --runs") from error
+        return folder
+    raise UsageError(f"a hundred runs began in one second in {runs}; wait a moment")
+
+
+def _write_resolved(rules: Rules, options: LaunchOptions, run_folder: Path) -> None:
+    """`crew.yaml` (JSON is YAML 1.2): what this run was made from, for people."""
+    import msgspec
+
+    resolved = {
+        "crew": msgspec.to_builtins(rules.crew),
+        "contracts": msgspec.to_builtins(dict(rules.contracts)),
+        "options": {"speed": options.speed, "planner": options.planner},
+    }
+    text = "# As resolved at the start of this run. Written as JSON, which YAML 1.2 reads.\n"
+    (run_folder / "crew.yaml").write_text(text + json.dumps(resolved, indent=2) + "\n")

@@ -1,0 +1,40 @@
+"""The run's rules: the crew file with the command line's choices, and the known obstacles of a simulated site."""
+
+from msgspec.structs import replace
+
+from crew.contracts.site import Rules, SimSpec
+from crew.errors import UsageError
+from crew.launch.options import LaunchOptions
+from crew.library import load_rules
+
+
+def resolve(options: LaunchOptions) -> Rules:
+    """Rules as this run uses them. Raises UsageError for a real connection: there are no locks yet."""
+    rules = load_rules(options.crew, contracts=options.contracts)
+    crew = rules.crew
+    real = [r.name for r in crew.robots if r.connection]
+    if real:
+        raise UsageError(
+            f"{', '.join(real)} of {crew.source} has a real connection; this version secures no bus and starts "
+            f"simulated robots only: write sim: instead of connection:"
+        )
+    if crew.sim is None:
+        raise UsageError(f"{crew.source} has no sim: section, which its simulated robots need; add sim: {{scene: ...}}")
+    sim = SimSpec(
+        scene=crew.sim.scene,
+        map=options.map or crew.sim.map,
+        seed=crew.sim.seed if options.seed is None else options.seed,
+        faults=(*crew.sim.faults, *options.faults),
+    )
+    return replace(rules, crew=replace(crew, sim=sim, obstacles=(*crew.obstacles, *_obstacles(sim))))
+
+
+def _obstacles(sim: SimSpec) -> tuple[tuple[float, float, float], ...]:
+    """What a surveyor of the simulated site would have drawn: discs around every obstacle of its map."""
+    from crew.sim.map import load_map
+
+    try:
+        site = load_map(sim.scene, sim.map)
+    except ValueError as error:
+        raise UsageError(f"the simulated site can't be loaded: {error}") from error
+    return tuple((o.x_m, o.y_m, o.reach_m) for o in site.obstacles)
