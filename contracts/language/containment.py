@@ -167,6 +167,11 @@ def _order(case: Case) -> Finding | None:
         before, after = (case.reading.mentions[k] for k in (first, second))
         early = [k for k, _ in _meant(case, before)]
         late = [k for k, _ in _meant(case, after)]
+        if early and early == late and before.means == after.means:
+            message = (
+                f"the request asks for '{before.text}' and '{after.text}' one after the other; the plan does it once"
+            )
+            return Finding(code=Code.REQUEST_DROPPED, message=message, field="steps", span=after.span)
         if early and late and max(late) < min(early):
             message = f"the request wants '{before.text}' before '{after.text}'; the plan does it the other way round"
             return Finding(

@@ -57,8 +57,10 @@ def _done(mention: Mention, instance: Instance, contract: Contract, rules: Rules
 
 
 def _used(mention: Mention, instance: Instance, contract: Contract, rules: Rules) -> Found | None:
-    for field, value in _values(instance, contract, rules):
-        if any(_touches(excluded, value, rules) for excluded in mention.values):
+    found = list(_values(instance, contract, rules))
+    searched = any(isinstance(value, Zone) for _, value in found)
+    for field, value in found:
+        if any(_touches(excluded, value, rules, searched) for excluded in mention.values):
             return field, shown(value, rules.crew)
     return None
 
@@ -85,14 +87,18 @@ def _spot(args: Mapping[str, ArgValue]) -> Spot | None:
     return Spot(x, y)
 
 
-def _touches(excluded: SlotValue, value: SlotValue, rules: Rules) -> bool:
-    """Equality, or overlap where one of them is a zone. A named place lies where it lies."""
-    if isinstance(value, str) and isinstance(excluded, Zone | Spot):
-        place = rules.crew.location(value)
-        return place is not None and _touches(excluded, Spot(place.x, place.y), rules)
+def _touches(excluded: SlotValue, value: SlotValue, rules: Rules, searched: bool) -> bool:
+    """Equality, or overlap where one of them is a zone. A named place lies where it lies.
+
+    Where a run-time value will lie is not known, unless the plan itself looks for it in a zone that is compared here.
+    """
+    if isinstance(value, str) and (place := rules.crew.location(value)) is not None and not isinstance(excluded, str):
+        value = Spot(place.x, place.y)
     if isinstance(excluded, str) and isinstance(value, Zone):
         place = rules.crew.location(excluded)
         return place is not None and value.contains(place.x, place.y)
+    if isinstance(excluded, Zone | Spot) and isinstance(value, str):
+        return rules.crew.value(value) is not None and not searched
     if isinstance(excluded, Zone) and isinstance(value, Zone):
         return excluded.overlaps(value)
     if isinstance(excluded, Zone) and isinstance(value, Spot):

@@ -1,9 +1,11 @@
 """The words of one crew: names, aliases, class words and action words, with everything that each can mean."""
 
 from collections.abc import Iterable, Iterator, Mapping
+from functools import cached_property
 from itertools import product
 
 import msgspec
+from msgspec.structs import replace
 
 from crew.contracts.contract import Contract, Step
 from crew.contracts.language.inflect import Form, inflections, plurals
@@ -44,7 +46,7 @@ class Entry(msgspec.Struct, frozen=True, kw_only=True):
     """Robots stop beside it anyway, so that "near" says nothing more."""
 
 
-class Lexicon(msgspec.Struct, frozen=True, kw_only=True):
+class Lexicon(msgspec.Struct, frozen=True, kw_only=True, dict=True):
     """The phrases of one crew by first word, longest first; within one length, names before function words."""
 
     names: Mapping[str, tuple[Entry, ...]]
@@ -61,8 +63,12 @@ class Lexicon(msgspec.Struct, frozen=True, kw_only=True):
     """Contract steps that take a zone."""
     object_steps: frozenset[tuple[str, str]]
     """Contract steps of contracts that handle an object."""
-    preempting: frozenset[str]
-    """Contracts that end what the robots are doing."""
+    ending: tuple[StepRef, ...]
+    """All steps of the contracts that end what the robots are doing."""
+
+    @cached_property
+    def preempting(self) -> frozenset[str]:
+        return frozenset(ref.contract for ref in self.ending)
 
     def longest(self, tokens: list[Token], at: int) -> Entry | None:
         """The longest phrase that starts here; a name wins over a function word of the same length."""
@@ -97,7 +103,12 @@ def build_lexicon(rules: Rules) -> Lexicon:
         robots=tuple(r.name for r in rules.crew.robots),
         zone_steps=frozenset(_steps_using(rules, "zone", own=True)),
         object_steps=frozenset(_steps_using(rules, "object", own=False)),
-        preempting=frozenset(c.name for c in rules.contracts.values() if c.preempts),
+        ending=tuple(
+            StepRef(c.name, step.name, call, True)
+            for c in rules.contracts.values()
+            if c.preempts
+            for step, call in _calls(c)
+        ),
     )
 
 
@@ -141,7 +152,9 @@ def _entities(rules: Rules) -> Iterator[Entry]:
     for value in crew.values:
         extra = SELF_WORDS if value.name == REQUESTER else ()
         near = value.standoff_m > 0
-        yield from _named(MentionKind.VALUE, value.name, value.name, (*value.aliases, *extra), near)
+        entries = list(_named(MentionKind.VALUE, value.name, value.name, (*value.aliases, *extra), near))
+        yield from entries
+        yield from (replace(e, words=many, plural=True) for e in entries for many in plurals(e.words))
     for zone in crew.zones:
         yield from _zone_noun_variants(zone.name, zone.zone, (zone.name, *zone.aliases))
 
@@ -198,8 +211,9 @@ def _actions(rules: Rules) -> Iterator[Entry]:
             words = words_of(phrase)
             refs = {r: None for known, rs in meanings.items() if known == words[: len(known)] for r in rs}
             mine = tuple(r for r in refs if r.contract == contract.name)
+            alike = (known for known, rs in meanings.items() if len(known) == 1 and set(mine) <= set(rs))
             if mine and words not in meanings:
-                yield _action(words, mine, Form.BASE)
+                yield from (_action((*verb, *words[1:]), mine, Form.BASE) for verb in alike)
         for phrase in opening_phrases(contract.examples):
             words = words_of(phrase)
             if words and not any(word in heads for heads in meanings for word in words) and words[0] not in _HARMLESS:

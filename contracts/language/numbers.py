@@ -260,7 +260,7 @@ def _plain_pair(tokens: list[Token], at: int, spaced: bool) -> tuple[Spot, int] 
 
 def _longer_list(tokens: list[Token], at: int, after: int) -> bool:
     """Three figures in a row are no point in the plane."""
-    if norm_at(tokens, at - 1) == "," and at > 1 and figure(tokens, at - 2) is not None:
+    if norm_at(tokens, at - 1) in (",", "and") and at > 1 and figure(tokens, at - 2) is not None:
         return True
     return figure(tokens, skip(tokens, after, ",", ";", "and")) is not None
 

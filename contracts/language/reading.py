@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from crew.contracts.language.lexicon import Lexicon
 from crew.contracts.language.mention import Ambiguity, Mention, MentionKind, Reading, Unread
 from crew.contracts.language.phrase import directions, loose_ends, noun_phrases
-from crew.contracts.language.piece import Piece, before
+from crew.contracts.language.piece import Piece, before, behind
 from crew.contracts.language.reference import governors, orders, participles, place_pronouns, pronouns
 from crew.contracts.language.scan import Scanner
 from crew.contracts.language.scope import contradictions, polarities
@@ -21,12 +21,12 @@ def read_request(text: str, lexicon: Lexicon) -> Reading:
         return _too_long(text)
     tokens = tokenize(text)
     pieces = noun_phrases(Scanner(tokens, lexicon).scan())
+    loose_ends(pieces)
     _everything(pieces, lexicon)
     _first(pieces)
     participles(pieces)
     place_pronouns(pieces)
     directions(pieces, tokens)
-    loose_ends(pieces)
     doubts = polarities(pieces, tokens)
     doubts += pronouns(pieces, tokens, lexicon)
     directions(pieces, tokens)
@@ -46,15 +46,18 @@ def _too_long(text: str) -> Reading:
 
 
 def _everything(pieces: list[Piece], lexicon: Lexicon) -> None:
-    """`stop everything`: all robots, but only for what ends missions."""
+    """`stop everything`, `all robots stop`: every step of the contract that ends what the robots do."""
     for at, piece in enumerate(pieces):
-        if piece.role is Role.EVERYTHING:
-            verb = before(pieces, at)
-            if verb is not None and any(r.contract in lexicon.preempting for r in verb.means):
-                piece.role, piece.kind, piece.every = Role.MENTION, MentionKind.ROBOT_CLASS, True
-                piece.values, piece.name = lexicon.robots, " and ".join(lexicon.robots)
-            else:
-                piece.become(Role.UNREAD)
+        whole = piece.is_robot and piece.every and set(piece.values) == set(lexicon.robots)
+        if piece.role is not Role.EVERYTHING and not whole:
+            continue
+        ending = [p for p in (before(pieces, at), behind(pieces, at)) if p is not None and p.is_action]
+        refs = [r for verb in ending[:1] for r in verb.means if r.contract in lexicon.preempting]
+        if refs:
+            ending[0].means = tuple(r for r in lexicon.ending if r.contract == refs[0].contract)
+            piece.become(Role.FILLER)
+        elif not whole:
+            piece.become(Role.UNREAD)
 
 
 def _first(pieces: list[Piece]) -> None:
@@ -101,7 +104,8 @@ def _mention(text: str, tokens: list[Token], piece: Piece, index: dict[int, int]
 def _unread(text: str, tokens: list[Token], pieces: list[Piece]) -> Iterator[Unread]:
     for piece in pieces:
         excluded_unknown = piece.kind is MentionKind.UNKNOWN and not piece.positive
-        if piece.role in (Role.UNREAD, Role.WORD) or excluded_unknown:
+        several = piece.kind is MentionKind.VALUE and piece.every
+        if piece.role in (Role.UNREAD, Role.WORD) or excluded_unknown or several:
             span = _span(tokens, piece)
             yield Unread(text[slice(*span)], span)
 

@@ -139,10 +139,18 @@ def _governor_of_robot(pieces: list[Piece], at: int, last: Piece | None) -> Piec
         return last or next((p for p in pieces[at:] if p.is_action), None)
     if following is not None and following.is_action:
         return following
+    if _called(pieces, at, previous) and (verb := behind(pieces, at + 1, _PASSED)) is not None and verb.is_action:
+        return verb
     if previous is not None and previous.role in (Role.AND, Role.PUNCTUATION):
         partner = before(pieces, pieces.index(previous))
         return partner.governor if partner is not None and partner.is_robot else None
     return None
+
+
+def _called(pieces: list[Piece], at: int, previous: Piece | None) -> bool:
+    """Whether a robot is called by its name: `rover, go to base`."""
+    opens = previous is None or (previous.role is Role.PUNCTUATION and previous.norm != ",")
+    return opens and at + 1 < len(pieces) and pieces[at + 1].norm in (",", ":", "-")
 
 
 def orders(pieces: list[Piece]) -> Iterator[tuple[Piece, Piece]]:
@@ -152,6 +160,8 @@ def orders(pieces: list[Piece]) -> Iterator[tuple[Piece, Piece]]:
         later = [p for p in pieces[at + 1 :] if p.is_action and p.positive]
         if piece.role is Role.THEN and earlier is not None and later:
             yield earlier, later[0]
+        elif piece.role is Role.FIRST and len(later) > 1:
+            yield later[0], later[1]
         elif piece.role is Role.AFTER and later:
             opening = earlier is None or before(pieces, at, SOFT) in (None,) or _starts_clause(pieces, at)
             if not opening and earlier is not None:

@@ -6,7 +6,7 @@ from crew.contracts.language.mention import ROBOT_KINDS, MentionKind
 from crew.contracts.language.numbers import Figures, read_figures
 from crew.contracts.language.piece import Piece, of_entry
 from crew.contracts.language.tokens import Shape, Token
-from crew.contracts.language.words import ADVERBS, PARTICLES, Role
+from crew.contracts.language.words import ADVERBS, PARTICLES, PLACE_NOUNS, Role
 
 _ARTICLES = frozenset(("the", "a", "an", "all", "both", "your", "our", "my", "any"))
 _LIGHT_LINKS = ("and", "to", "by", "with")
@@ -78,7 +78,7 @@ class Scanner:
         verb = self._past(self._past(end, ("out", "up", "off", "over")), ("to",))
         marked = verb > end and self.tokens[verb - 1].norm == "to"
         action = self._action(self._past(verb, ("go", "and", "then")) if marked else verb)
-        if action is None or (sending and not marked) or self._name_is_place(verb):
+        if action is None or (sending and not marked) or self._name_is_place(verb) or action.words[0] in PLACE_NOUNS:
             return None
         self.taken.update(range(end, verb))
         return Piece(at, start, Role.FILLER)
@@ -111,6 +111,8 @@ class Scanner:
         end = at + len(entry.words)
         if entry.role is Role.FILLER and end - at > 1 and self._action(end - 1) is not None:
             return Piece(at, end - 1, Role.FILLER)  # `i need`, where `need` is an action of this crew
+        if entry.role is Role.MODAL and end < len(self.tokens) and self.tokens[end].norm in ("i", "we"):
+            return Piece(at, end, Role.UNREAD)  # "should I search": a question, no request
         if entry.role is Role.WHOEVER:
             return self._whoever(at, end)
         return of_entry(entry, at, end, self.tokens[end - 1].possessive)
@@ -143,9 +145,15 @@ class Scanner:
                 return _value(at, verb + len(action.words), value)
             if self._connective(verb):
                 break
+        if self._negated():
+            return Piece(at, end, Role.FILLER)  # "don't send anyone"
         last = next((p for p in reversed(self.pieces) if p.role not in (Role.FOR, Role.FILLER)), None)
         value = self._reported(last.means) if last is not None and last.is_action else None
         return Piece(at, end, Role.UNREAD) if value is None else _value(at, end, value)
+
+    def _negated(self) -> bool:
+        bounds = (p.role for p in reversed(self.pieces) if p.role in (Role.NOT, Role.PUNCTUATION, Role.BREAK))
+        return next(bounds, None) is Role.NOT
 
     def _connective(self, at: int) -> bool:
         if self.tokens[at].shape is Shape.MARK:
@@ -159,6 +167,8 @@ class Scanner:
 
     def _loose(self, at: int) -> Piece:
         token = self.tokens[at]
+        if token.norm == "out" and self.pieces and self.pieces[-1].is_action:
+            return Piece(at, at + 1, Role.FILLER)  # "find out", "check out"
         unread = is_numeral(self.tokens, at) or token.norm in ADVERBS or token.norm.endswith("ly")
         return Piece(at, at + 1, Role.UNREAD if unread else Role.WORD, norm=token.norm, possessive=token.possessive)
 

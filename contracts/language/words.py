@@ -56,7 +56,9 @@ FUNCTION_WORDS: dict[Role, tuple[str, ...]] = {
         "go ahead", "if you please", "if you can", "if possible", "nothing else", "nothing more", "too", "as well",
         "good morning", "good afternoon", "good evening", "dear", "also", "it is time to", "time to",
         "your task is to", "your job is to", "your mission is to", "the task is to", "you have to", "you need to",
-        "has to", "needs to", "have to", "need to", "the job is to", "take care to", "be so kind", "be so kind as",
+        
+        "it would be nice to", "it would be great to", "it would be nice if you could",
+        "it would be great if you could", "if you could", "has to", "needs to", "have to", "need to", "the job is to", "take care to", "be so kind", "be so kind as",
     ),
     Role.MODAL: ("should", "shall", "must", "can", "could", "would", "ought"),
     Role.BE: ("be", "been", "is", "are", "has", "have", "has been", "have been", "get", "gets"),
@@ -86,12 +88,13 @@ FUNCTION_WORDS: dict[Role, tuple[str, ...]] = {
     Role.NO: ("no",),
     Role.EXCEPT: (
         "except", "except for", "excluding", "apart from", "other than", "rather than", "instead of", "but for",
-        "not including", "aside from", "save for", "minus", "less",
+        "not including", "all but",
+        "anywhere but", "everywhere but", "everything but", "anything but", "aside from", "save for", "minus", "less",
     ),
     Role.AVOID: (
         "avoid", "avoiding", "skip", "skipping", "stay away from", "keep away from", "keep out of", "stay out of",
         "leave out", "leaving out", "away from", "stay clear of", "keep clear of", "ignore", "ignoring", "omit",
-        "omitting", "forbid", "forbidden",
+        "omitting", "forbid", "forbidden", "outside", "outside of", "beyond",
     ),
     Role.CONDITION: (
         "if", "unless", "until", "till", "before", "in case", "whether", "provided", "assuming", "otherwise", "else",
@@ -133,7 +136,7 @@ def _set(text: str) -> frozenset[str]:
 
 ADVERBS: frozenset[str] = _set(
     "twice thrice again once more often always forever fast slow quick soon tomorrow today tonight "
-    "yesterday maybe perhaps already still almost least most very really exactly about roughly up down "
+    "yesterday x y maybe perhaps already still almost least most very really exactly about roughly up down "
     "out off away back"
 )
 """Words that change how, when or how often. They are never read, and never part of a name."""
