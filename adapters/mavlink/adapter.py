@@ -2,7 +2,7 @@
 
 import asyncio
 from collections.abc import Callable, Mapping
-from typing import Protocol, cast
+from typing import cast
 
 from crew.adapter import AdapterConfig, Place, Reading, StopLatch
 from crew.adapters.mavlink.braking import brake
@@ -12,8 +12,9 @@ from crew.adapters.mavlink.options import QuadcopterOptions, RoverOptions, Vehic
 from crew.adapters.mavlink.quadcopter import QuadcopterSkills
 from crew.adapters.mavlink.rover import RoverSkills
 from crew.adapters.mavlink.run import HANDS_OFF, Run
+from crew.adapters.mavlink.skills import Skills
 from crew.adapters.mavlink.stopping import StopRepeater
-from crew.adapters.mavlink.vehicle import Vehicle
+from crew.adapters.mavlink.vehicle import POLL_S, Vehicle
 from crew.adapters.mavlink.writer import Permit
 from crew.clock import Clock
 from crew.contracts.skill import SkillArgs
@@ -22,27 +23,6 @@ from crew.errors import AdapterError, Latched, nearest
 
 OPTIONS: dict[str, type[VehicleOptions]] = {"quadcopter": QuadcopterOptions, "rover": RoverOptions}
 SAFE_BEHAVIOURS = ("hover_then_land", "land", "hover", "stop")
-
-
-class Skills(Protocol):
-    """One kind's skills over one vehicle."""
-
-    still_mps: float
-    unconditional: frozenset[str]
-    """Skills that need no healthy vehicle: they make it safe."""
-
-    @property
-    def grounded(self) -> bool: ...
-
-    def fluents(self) -> Mapping[str, Reading]: ...
-
-    def values(self) -> Mapping[str, ValueReading]: ...
-
-    async def perform(self, args: SkillArgs, places: Mapping[str, Place], run: Run) -> None: ...
-
-    async def come_down(self, run: Run) -> None:
-        """End on the ground; a vehicle that is always there does nothing."""
-        ...
 
 
 class MavlinkAdapter:
@@ -108,6 +88,7 @@ class MavlinkAdapter:
         if self._run is not None:
             self._end(self._run.permit, AdapterError(f"{self._config.robot}: skill cancelled", code="cancelled"))
         await self._brake(self._run_for(Permit(safe=True)))
+        await self._ended()
 
     async def safe(self, behaviour: str) -> None:
         """`hover` and `stop` brake, `land` lands, `hover_then_land` brakes, waits and lands. Allowed while latched."""
@@ -124,6 +105,7 @@ class MavlinkAdapter:
             self._repeater.finish()
             if behaviour in ("land", "hover_then_land"):
                 await self._ready().come_down(run)
+            await self._ended()
         finally:
             self._end_safe(run.permit)
 
@@ -234,6 +216,11 @@ class MavlinkAdapter:
             if permit is not None:
                 permit.revoke(error)
 
+    async def _ended(self) -> None:
+        """Wait for a run whose permit was revoked to notice it: one poll, or the answer to its last command."""
+        while self._run is not None and self._run.permit.revoked:
+            await self._clock.sleep(POLL_S)
+
     def _require_fit(self, skill: str, run: Run) -> None:
         run.check()
         if skill in self._ready().unconditional:
@@ -244,9 +231,14 @@ class MavlinkAdapter:
     # Stopping.
 
     def _abandon(self, run: Run, error: AdapterError) -> None:
-        """After a failure: stop what was set in motion, at once, and see to it that it stops."""
+        """After a failure: stop what was set in motion, at once, and see to it that it stops.
+
+        Whoever revoked the permit (a stop, a cancel, a safe behaviour) does so already.
+        """
+        if run.permit.revoked:
+            return
         self._end(run.permit, error)
-        if not run.moved or self._latch.latched or self._safe is not None:
+        if not run.moved:
             return
         self._send_stop()
         self._braking = asyncio.get_running_loop().create_task(self._brake_after_failure())

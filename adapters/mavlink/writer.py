@@ -33,6 +33,10 @@ class Permit:
         """End the permit for good; the first reason stays."""
         self._revoked = self._revoked or error
 
+    @property
+    def revoked(self) -> bool:
+        return self._revoked is not None
+
     def check(self) -> None:
         """Raise the reason if the permit was revoked."""
         if self._revoked is not None:

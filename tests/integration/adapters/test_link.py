@@ -61,7 +61,9 @@ async def settle(clock: SimClock) -> None:
 
 
 async def test_only_the_wanted_system_at_its_first_address_is_heard() -> None:
-    port, clock, counts, heard, settled = free_port(), SimClock(), LinkCounts(), [], []
+    port, clock, counts = free_port(), SimClock(), LinkCounts()
+    heard: list[Any] = []
+    settled: list[int] = []
     link = UdpLink(
         parse_endpoint(f"udpin:127.0.0.1:{port}"),
         clock,

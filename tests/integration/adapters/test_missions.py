@@ -98,31 +98,26 @@ async def test_a_flight_ends_over_its_point_and_the_rover_at_its() -> None:
         await stage.run(stage.tb3.execute("stop", Stop(), {}))
 
 
-@pytest.mark.parametrize(
-    ("skill", "args", "code"),
-    [
+async def test_wrong_targets_are_refused_before_anything_moves() -> None:
+    cases: list[tuple[str, FlyTo | SearchTarget | NavigateTo, str]] = [
         ("fly_to", FlyTo(x=10.5, y=0, altitude=3), "out_of_bounds"),
         ("fly_to", FlyTo(x=math.nan, y=0, altitude=3), "bad_argument"),
         ("search_target", SearchTarget(x_min=0, x_max=11, y_min=0, y_max=4, altitude=3), "out_of_bounds"),
         ("search_target", SearchTarget(x_min=4, x_max=0, y_min=0, y_max=4, altitude=3), "bad_argument"),
         ("navigate_to", NavigateTo(x=0, y=0), "unknown_skill"),
-    ],
-)
-async def test_wrong_targets_are_refused_before_anything_moves(
-    skill: str, args: FlyTo | SearchTarget | NavigateTo, code: str
-) -> None:
+    ]
     async with lockstep("iris") as stage:
-        if skill != "navigate_to":
+        with pytest.raises(AdapterError) as refused:
+            await stage.run(stage.iris.execute("fly_to", FlyTo(x=0, y=0, altitude=3), {}))
+        assert refused.value.code == "precondition_failed"
+        await fly(stage, "takeoff", Takeoff(altitude=2))
+        before = stage.world.truth().robots["iris"]
+        for skill, args, code in cases:
             with pytest.raises(AdapterError) as refused:
                 await stage.run(stage.iris.execute(skill, args, {}))
-            assert refused.value.code == "precondition_failed"
-            await fly(stage, "takeoff", Takeoff(altitude=2))
-        before = stage.world.truth().robots["iris"]
-        with pytest.raises(AdapterError) as refused:
-            await stage.run(stage.iris.execute(skill, args, {}))
-        assert refused.value.code == code
+            assert refused.value.code == code
         after = stage.world.truth().robots["iris"]
-        assert math.hypot(after.x_m - before.x_m, after.y_m - before.y_m) < 0.3
+        assert math.hypot(after.x_m - before.x_m, after.y_m - before.y_m) < 0.5
 
 
 async def test_the_rover_refuses_what_it_cannot_reach() -> None:

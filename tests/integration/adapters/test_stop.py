@@ -123,6 +123,6 @@ async def test_one_skill_at_a_time() -> None:
             await stage.iris.execute("land", Land(), {})
         assert refused.value.code == "robot_busy"
         await stage.run(stage.iris.cancel())
-        assert task.done()
+        assert isinstance(task.exception(), AdapterError)
         with pytest.raises(AdapterError, match="no safe behaviour"):
             await stage.iris.safe("dance")
