@@ -1,6 +1,5 @@
 """What the models of contract and crew files share: strict shapes, and pydantic's complaints in plain words."""
 
-import operator
 import re
 from collections.abc import Callable
 from typing import Annotated, Any, ClassVar, NamedTuple, TypeVar
@@ -179,9 +178,10 @@ def _written(loc: Loc, root: Block) -> Loc:
     node: Any = root
     parts: list[str | int] = []
     for part in loc:
-        if (isinstance(node, Block) and part in node) or (isinstance(node, Items) and isinstance(part, int)):
+        written = part in node if isinstance(node, Block) else isinstance(node, Items) and isinstance(part, int)
+        if written:
             parts.append(part)
-            node = operator.getitem(node, part)
+            node = node[part]
     return tuple(parts)
 
 

@@ -5,12 +5,12 @@ from typing import ClassVar
 import msgspec
 
 from crew.contracts.decision import Decision
-from crew.contracts.mission_event import AnyEvent
+from crew.contracts.mission.event import AnyEvent
+from crew.contracts.mission.validation import Validation
 from crew.contracts.mission_state import MissionState
 from crew.contracts.plan import Plan
 from crew.contracts.refusal import Refusal
 from crew.contracts.snapshot import Snapshot
-from crew.contracts.validation import Validation
 from crew.messages import Dispatch
 from crew.packed import PackedRules
 

@@ -14,10 +14,10 @@ from crew.actors.orchestrator.shell import MissionShell, is_idle
 from crew.actors.orchestrator.world import WorldFold
 from crew.bus.port import Body, Bus, Qos, Sample
 from crew.clock import WALL, Clock
-from crew.contracts import mission_event as ev
 from crew.contracts.decision import Authorizer
 from crew.contracts.language.lexicon import build_lexicon
 from crew.contracts.language.reading import read_request
+from crew.contracts.mission import event as ev
 from crew.contracts.mission_state import MissionState
 from crew.contracts.site import Rules
 from crew.errors import CrewError

@@ -5,9 +5,9 @@ from collections.abc import Mapping
 
 from crew.bus.port import Bus, Qos
 from crew.clock import Clock
-from crew.contracts import mission_event as ev
+from crew.contracts.mission import event as ev
+from crew.contracts.mission.provenance import sources
 from crew.contracts.mission_state import ENDS, MissionState, Phase, StepPhase
-from crew.contracts.provenance import sources
 from crew.contracts.site import Rules
 from crew.contracts.snapshot import ValueReading
 from crew.keys import Keys

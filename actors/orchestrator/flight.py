@@ -9,8 +9,8 @@ from crew.actors.orchestrator.ledger import Ledger
 from crew.actors.orchestrator.world import WorldFold
 from crew.bus.port import Bus, Qos
 from crew.clock import WALL, Clock, seconds_ns, within
-from crew.contracts import mission_event as ev
-from crew.contracts.mission_record import find
+from crew.contracts.mission import event as ev
+from crew.contracts.mission.record import find
 from crew.contracts.mission_state import MissionState
 from crew.contracts.plan import digest
 from crew.contracts.site import Rules

@@ -6,7 +6,7 @@ from crew.actors.orchestrator.lease import LeaseTable
 from crew.actors.orchestrator.ledger import Ledger
 from crew.actors.orchestrator.world import WorldFold
 from crew.clock import Clock, seconds_ns
-from crew.contracts.judgement import judge
+from crew.contracts.mission.judgement import judge
 from crew.contracts.mission_state import MissionState
 from crew.contracts.site import Rules
 

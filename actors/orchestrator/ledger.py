@@ -6,11 +6,11 @@ import msgspec
 
 from crew.clock import Clock
 from crew.contracts.decision import Decision
-from crew.contracts.mission_event import AnyEvent
+from crew.contracts.mission.event import AnyEvent
+from crew.contracts.mission.validation import Validation
 from crew.contracts.mission_state import MissionState
 from crew.contracts.plan import Plan, digest
 from crew.contracts.snapshot import Snapshot
-from crew.contracts.validation import Validation
 from crew.journal import Journal, Ticket
 from crew.messages import Dispatch
 from crew.records import (

@@ -8,8 +8,8 @@ from crew.actors.orchestrator.lease import LeaseTable
 from crew.actors.orchestrator.world import WorldFold
 from crew.bus.port import Bus, Qos
 from crew.clock import WALL, Clock
-from crew.contracts import mission_event as ev
 from crew.contracts.codes import Code
+from crew.contracts.mission import event as ev
 from crew.contracts.mission_state import MissionState
 from crew.contracts.refusal import Refusal
 from crew.contracts.site import Rules

@@ -10,7 +10,7 @@ from crew.actors.specs import OrchestratorSpec
 from crew.bus.port import Bus
 from crew.bus.zenoh import ZenohBus
 from crew.clock import SimClock, WallClock
-from crew.contracts.gate import Gate
+from crew.contracts.gate.authorize import Gate
 from crew.contracts.site import Rules
 from crew.errors import JournalError
 from crew.home import Home
@@ -39,13 +39,17 @@ async def serve(spec: OrchestratorSpec, rules: Rules, bus: Bus, context: ChildCo
     keys = Keys(rules.crew.name)
     loop, failed = asyncio.get_running_loop(), asyncio.Event()
     key = load_or_create_key(home.keys, JOURNAL_KEY)
+
+    def journal_failed(error: JournalError) -> None:
+        loop.call_soon_threadsafe(failed.set)
+
     clock = SimClock() if spec.simulated else WallClock()
     with Journal(
         Path(spec.run_folder) / "journal.db",
         run_id=run,
         key=key,
         outside_head=home.head(run),
-        on_failure=lambda _: loop.call_soon_threadsafe(failed.set),
+        on_failure=journal_failed,
     ) as journal:
         ledger = Ledger(journal, clock)
         ledger.write(run_record(spec, rules, run))

@@ -10,14 +10,14 @@ from crew.actors.orchestrator.lease import LeaseTable
 from crew.actors.orchestrator.ledger import Ledger
 from crew.actors.orchestrator.world import WorldFold
 from crew.clock import Clock
-from crew.contracts import mission_event as ev
 from crew.contracts.decision import Authorizer
-from crew.contracts.judgement import safe_call
-from crew.contracts.mission import step
+from crew.contracts.mission import event as ev
+from crew.contracts.mission.judgement import safe_call
+from crew.contracts.mission.machine import step
+from crew.contracts.mission.validation import validate
 from crew.contracts.mission_state import ENDS, MissionState, Phase, Purpose
 from crew.contracts.plan import Call
 from crew.contracts.site import Rules
-from crew.contracts.validation import validate
 
 MAX_ENDED = 64
 """Ended missions that the status still tells of."""

@@ -13,8 +13,8 @@ from crew.actors.robot.stop import StopSwitch
 from crew.adapter import Adapter, Place
 from crew.bus.port import Bus
 from crew.clock import WALL, Clock, within
-from crew.contracts.effect import unseen_effect
-from crew.contracts.guard import Scope
+from crew.contracts.gate.guard import Scope
+from crew.contracts.mission.effect import unseen_effect
 from crew.contracts.mission_state import StepRecord
 from crew.contracts.plan import Call
 from crew.contracts.site import RobotSpec, Rules

@@ -2,7 +2,7 @@
 
 import msgspec
 
-from crew.contracts.arguments import check_call
+from crew.contracts.gate.arguments import check_call
 from crew.contracts.plan import Call, digest
 from crew.contracts.site import Rules
 from crew.messages import CancelSkill, Dispatch

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 
-from crew.contracts.arguments import bounds
+from crew.contracts.gate.arguments import bounds
 from crew.contracts.render.wording import fluent_words, listed
 from crew.contracts.site import Rules
 from crew.contracts.skill import Entity, Kind, Param, Skill

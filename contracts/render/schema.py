@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from crew.contracts.arguments import bounds, names_for
+from crew.contracts.gate.arguments import bounds, names_for
 from crew.contracts.site import Rules
 from crew.contracts.skill import Param, Skill
 

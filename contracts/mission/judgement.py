@@ -1,9 +1,9 @@
 """Whether what was hoped for is seen: an effect, a role's safe state, a contract's completion. Pure; empty means yes."""
 
-from crew.contracts.effect import safe_state_missing, unseen_effect
-from crew.contracts.gate import scope_of
-from crew.contracts.guard import Truth, evaluate
-from crew.contracts.mission_record import find
+from crew.contracts.gate.guard import Truth, evaluate
+from crew.contracts.gate.scope import scope_of
+from crew.contracts.mission.effect import safe_state_missing, unseen_effect
+from crew.contracts.mission.record import find
 from crew.contracts.mission_state import MissionState
 from crew.contracts.plan import Call
 from crew.contracts.site import Rules

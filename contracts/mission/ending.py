@@ -5,9 +5,9 @@ from typing import Any
 
 from msgspec.structs import replace
 
-from crew.contracts import mission_event as ev
 from crew.contracts.contract import Contract
-from crew.contracts.mission_record import RESULTS, SAFE, accept, find, put
+from crew.contracts.mission import event as ev
+from crew.contracts.mission.record import RESULTS, SAFE, accept, find, put
 from crew.contracts.mission_state import ACTIVE, MissionState, Phase, Purpose, StepPhase, StepRecord
 
 Result = tuple[MissionState, tuple[ev.AnyEffect, ...]]
@@ -21,11 +21,12 @@ def end_now(state: MissionState, phase: Phase, message: str) -> Result:
 
 def halt(state: MissionState, message: str, contracts: Mapping[str, Contract], phase: Phase = Phase.HALTING) -> Result:
     """Begin an early end: cancel what runs (a skill that is its role's safe state runs on), make the rest safe."""
-    assert state.instance is not None
-    contract = contracts[state.instance.contract]
+    instance = state.instance
+    assert instance is not None
+    contract = contracts[instance.contract]
     state = replace(state, phase=phase, message=message, steps=_undecide(state.steps))
     effects: list[ev.AnyEffect] = []
-    for role, robot in state.instance.roles.items():
+    for role, robot in instance.roles.items():
         running = [state.steps[name] for name in state.active(robot)]
         if not running:
             effects.append(ev.MakeSafe(role=role))

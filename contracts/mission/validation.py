@@ -3,11 +3,11 @@
 import msgspec
 from msgspec.structs import replace
 
-from crew.contracts.arguments import check_call
 from crew.contracts.codes import Code
 from crew.contracts.decision import Authorizer
-from crew.contracts.effect import assumed_world, predict
+from crew.contracts.gate.arguments import check_call
 from crew.contracts.matching import match
+from crew.contracts.mission.effect import assumed_world, predict
 from crew.contracts.mission_state import MissionState, Phase, Purpose, Question, StepPhase, StepRecord
 from crew.contracts.plan import Instance, Plan, digest
 from crew.contracts.refusal import Refusal

@@ -8,14 +8,14 @@ from typing import Any
 
 from msgspec.structs import replace
 
-from crew.contracts import mission_event as ev
 from crew.contracts.codes import Code
 from crew.contracts.contract import Contract
-from crew.contracts.mission_ending import ENDING, end_now, halt
-from crew.contracts.mission_record import RESULTS, accept, find, next_steps, put
+from crew.contracts.mission import event as ev
+from crew.contracts.mission.ending import ENDING, end_now, halt
+from crew.contracts.mission.record import RESULTS, accept, find, next_steps, put
+from crew.contracts.mission.validation import pending_steps
 from crew.contracts.mission_state import ACTIVE, ENDS, MissionState, Phase, Purpose, StepPhase
 from crew.contracts.refusal import Refusal
-from crew.contracts.validation import pending_steps
 
 Result = tuple[MissionState, tuple[ev.AnyEffect, ...]]
 Handler = Callable[[MissionState, Any, Mapping[str, Contract]], Result]

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 
 from msgspec.structs import replace
 
-from crew.contracts.guard import Scope, Truth, robot_fluent_is
+from crew.contracts.gate.guard import Scope, Truth, robot_fluent_is
 from crew.contracts.mission_state import StepRecord
 from crew.contracts.plan import Call
 from crew.contracts.site import Rules

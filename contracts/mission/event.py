@@ -5,9 +5,9 @@ from collections.abc import Mapping
 import msgspec
 
 from crew.contracts.decision import Decision
+from crew.contracts.mission.validation import Validation
 from crew.contracts.plan import Call, Plan
 from crew.contracts.refusal import Refusal
-from crew.contracts.validation import Validation
 
 
 class Event(msgspec.Struct, frozen=True, kw_only=True):

@@ -10,7 +10,6 @@ from crew.contracts.contract import Condition
 from crew.contracts.plan import SlotValue, Spot
 from crew.contracts.refusal import show
 from crew.contracts.site import Rules
-from crew.contracts.skill import FluentLiteral
 from crew.contracts.snapshot import FluentValue, Point, Snapshot
 
 SECOND_NS = 1_000_000_000
@@ -70,7 +69,7 @@ def evaluate(condition: Condition, scope: Scope) -> Verdict:
     return _compare(condition.path, wanted, condition.negated, scope)
 
 
-def robot_fluent_is(robot: str, fluent: str, wanted: FluentLiteral, scope: Scope) -> Verdict:
+def robot_fluent_is(robot: str, fluent: str, wanted: FluentValue, scope: Scope) -> Verdict:
     """Whether one robot's fluent has a value: for a skill's own preconditions and for safe states."""
     return _robot_fluent(robot, fluent, wanted, scope)
 

@@ -4,8 +4,8 @@ from collections.abc import Mapping
 
 from msgspec.structs import replace
 
-from crew.contracts import mission_event as ev
 from crew.contracts.contract import Contract
+from crew.contracts.mission import event as ev
 from crew.contracts.mission_state import MissionState, StepPhase, StepRecord, enabled
 
 SAFE = "safe:"

@@ -1,0 +1,1 @@
+"""The gate: what stands between a proposal and a robot. Pure."""

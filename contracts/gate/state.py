@@ -1,0 +1,161 @@
+"""The gate's fifth group of checks: stop, availability, lease, freshness, preconditions, deadline, approval."""
+
+from crew.contracts.codes import Code
+from crew.contracts.contract import Condition
+from crew.contracts.gate.guard import SECOND_NS, Scope, Truth, Verdict, age, evaluate, robot_fluent_is
+from crew.contracts.gate.scope import is_position, scope_of, skill_of
+from crew.contracts.mission_state import ACTIVE, MissionState, Purpose
+from crew.contracts.plan import Call
+from crew.contracts.refusal import Refusal, show
+from crew.contracts.site import Rules
+from crew.contracts.skill import Skill
+from crew.contracts.snapshot import Snapshot
+
+
+def check_state(
+    call: Call, step: str, mission: MissionState, world: Snapshot, rules: Rules, now_ns: int, purpose: Purpose
+) -> Refusal | None:
+    """The first check of state that fails. A safe call is exempt from guards, deadline and approval."""
+    skill = skill_of(call, rules)
+    executing = purpose is Purpose.EXECUTE
+    return (
+        _check_availability(call, mission, world, rules)
+        or _check_busy(call, step, mission, world)
+        or _check_freshness(call, world, rules, now_ns)
+        or _check_preconditions(call, skill, mission, world, rules, now_ns)
+        or (_check_guards(step, mission, world, rules, now_ns) if executing else None)
+        or (_check_deadline(mission, rules, now_ns) if executing else None)
+        or (_check_approval(step, mission, rules) if executing else None)
+    )
+
+
+def _check_availability(call: Call, mission: MissionState, world: Snapshot, rules: Rules) -> Refusal | None:
+    state = world.robots.get(call.robot)
+    if world.stopped or (state is not None and state.stopped):
+        whose = "the crew is" if world.stopped else f"{call.robot} is"
+        message = f"{whose} stopped; nothing moves before a reset (crew reset)"
+        return Refusal(code=Code.STOPPED, message=message, field=call.robot, observed="stopped", allowed="released")
+    reason = "never heard of" if state is None else state.unavailable
+    kind = rules.kind_of(call.robot)
+    if state is not None and not reason and kind is not None and state.kind_digest != kind.digest:
+        reason = "announces another declaration of its kind"
+    if reason:
+        message = f"{call.robot} is unavailable: {reason} (crew status)"
+        return Refusal(
+            code=Code.ROBOT_UNAVAILABLE, message=message, field=call.robot, observed=reason, allowed="available"
+        )
+    assert state is not None
+    if state.lease != mission.id:
+        holder = state.lease or "nobody"
+        message = f"{call.robot} is leased to {holder}, not to {mission.id}"
+        return Refusal(code=Code.ROBOT_LEASED, message=message, field=call.robot, observed=holder, allowed=mission.id)
+    return None
+
+
+def _check_busy(call: Call, step: str, mission: MissionState, world: Snapshot) -> Refusal | None:
+    records = [
+        *mission.steps.items(),
+        *((f"safe:{r}", s) for r, s in mission.safe.items()),
+    ]
+    running = next(
+        (
+            name
+            for name, record in records
+            if name != step and record.phase in ACTIVE and record.call.robot == call.robot
+        ),
+        world.robots[call.robot].running,
+    )
+    if not running:
+        return None
+    message = f"{call.robot} is still busy with {running}"
+    return Refusal(code=Code.ROBOT_BUSY, message=message, field=call.robot, observed=running, allowed="idle")
+
+
+def _check_freshness(call: Call, world: Snapshot, rules: Rules, now_ns: int) -> Refusal | None:
+    """A robot whose telemetry has gone quiet takes no call, whether or not a guard reads it."""
+    kind = rules.kind_of(call.robot)
+    assert kind is not None
+    fluents = world.robots[call.robot].fluents
+    for declared in kind.fluents:
+        stamped = fluents.get(declared.name)
+        if stamped is None:
+            continue
+        age_s = age(stamped.source_ns, now_ns)
+        if 0.0 <= age_s <= declared.max_age_s:
+            return None
+    newest = max((s.source_ns for s in fluents.values()), default=None)
+    seen = "nothing heard yet" if newest is None else f"newest state is {(now_ns - newest) / SECOND_NS:.1f} s old"
+    message = f"state of {call.robot} is stale: {seen}; is its adapter running? (crew status)"
+    return Refusal(code=Code.STATE_STALE, message=message, field=call.robot, observed=seen, allowed="fresh telemetry")
+
+
+def _check_preconditions(
+    call: Call, skill: Skill, mission: MissionState, world: Snapshot, rules: Rules, now_ns: int
+) -> Refusal | None:
+    scope = scope_of(mission, world, rules, now_ns)
+    for fluent, wanted in skill.needs.items():
+        verdict = robot_fluent_is(call.robot, fluent, wanted, scope)
+        refusal = _judge(f"{call.robot}.{fluent}", f"is {show(wanted)}", verdict, "")
+        if refusal is not None:
+            return refusal
+    return None
+
+
+def _check_guards(step: str, mission: MissionState, world: Snapshot, rules: Rules, now_ns: int) -> Refusal | None:
+    assert mission.instance is not None
+    contract = rules.contracts[mission.instance.contract]
+    declared = contract.step(step)
+    assert declared is not None
+    entry = () if mission.sent_any else contract.needs
+    scope = scope_of(mission, world, rules, now_ns)
+    for condition in (*entry, *declared.needs):
+        line = f"{contract.name}:{condition.line}"
+        refusal = _judge(condition.path, _wanted(condition), evaluate(condition, scope), line, scope)
+        if refusal is not None:
+            return refusal
+    return None
+
+
+def _wanted(condition: Condition) -> str:
+    return f"is {'not ' if condition.negated else ''}{show(condition.value)}"
+
+
+def _judge(path: str, wanted: str, verdict: Verdict, line: str, scope: Scope | None = None) -> Refusal | None:
+    if verdict.truth is Truth.HOLDS:
+        return None
+    aged = "" if verdict.age_s is None else f" ({verdict.age_s:.1f} s old, at most {verdict.max_age_s:g} s)"
+    if verdict.truth is Truth.FAILS:
+        message = f"needs that {path} {wanted}, observed {verdict.observed}"
+        code = Code.PRECONDITION_FAILED
+    elif scope is not None and path.partition(".")[0] not in scope.roles:
+        message = f"needs that {path} {wanted}, but no usable value was published"
+        code = Code.NO_TARGET_FIX if is_position(path.partition(".")[0], scope.rules) else Code.NO_VALUE
+    else:
+        message = f"needs that {path} {wanted}, but its state is {verdict.truth}{aged}"
+        code = Code.STATE_STALE
+    return Refusal(code=code, message=message, field=path, observed=verdict.observed, allowed=wanted, line=line)
+
+
+def _check_deadline(mission: MissionState, rules: Rules, now_ns: int) -> Refusal | None:
+    assert mission.instance is not None
+    limit_s = rules.contracts[mission.instance.contract].deadline_s
+    spent_s = (now_ns - mission.started_ns) / SECOND_NS if mission.started_ns else 0.0
+    if spent_s <= limit_s:
+        return None
+    message = f"the mission has run {spent_s:.0f} s, its contract allows {limit_s:g} s"
+    return Refusal(
+        code=Code.DEADLINE_PASSED,
+        message=message,
+        field="deadline_s",
+        observed=f"{spent_s:.0f} s",
+        allowed=f"{limit_s:g} s",
+    )
+
+
+def _check_approval(step: str, mission: MissionState, rules: Rules) -> Refusal | None:
+    assert mission.instance is not None
+    declared = rules.contracts[mission.instance.contract].step(step)
+    if declared is None or not declared.approval or step in mission.approvals:
+        return None
+    message = f"step {step} waits for a person's approval"
+    return Refusal(code=Code.APPROVAL_MISSING, message=message, field=step, observed="none", allowed="an approval")
