@@ -3,7 +3,7 @@
 It carries unknown names verbatim, so that the gate refuses them by name, and abstains rather than guess.
 """
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from typing import NamedTuple
 
 import msgspec
@@ -12,7 +12,7 @@ from rapidfuzz import fuzz
 from crew.contracts.contract import CallPattern, Condition, Contract, Slot, SlotType, Step
 from crew.contracts.language.exclusion import excluded_skills
 from crew.contracts.language.lexicon import lexicon_of
-from crew.contracts.language.licence import fits, licensed_values, resolved, slots_in
+from crew.contracts.language.licence import fits, licensed_values, resolved
 from crew.contracts.language.mention import ROBOT_KINDS, Mention, MentionKind, Reading
 from crew.contracts.language.reading import explain_reading, read_request
 from crew.contracts.language.templates import skeleton
@@ -23,6 +23,8 @@ from crew.contracts.skill import FluentLiteral, Kind, Skill
 DEFAULT_ALTITUDE_M = 5.0
 THRESHOLD = 0.5
 """The least share of the request's actions and names that a contract must account for."""
+BARRED = 0.45
+"""What a failing entry guard costs a contract."""
 
 
 class PlannerState(msgspec.Struct, frozen=True, kw_only=True):
@@ -61,8 +63,8 @@ def propose(text: str, rules: Rules, state: PlannerState) -> Plan | Abstention:
     reading = read_request(text, lexicon_of(rules))
     if not reading.actions:
         return Abstention(f"the request asks for no action that this crew knows ({explain_reading(reading)})")
-    cast = (_cast(c, reading, rules, state) for c in rules.contracts.values())
-    bids = [_bid(c, reading, rules) for c in cast if c is not None]
+    cast = (_cast(c, reading, rules) for c in rules.contracts.values())
+    bids = [_bid(c, reading, rules, state) for c in cast if c is not None]
     best = max(bids, key=lambda b: (round(b.share, 6), b.likeness), default=None)
     if best is None or best.share < THRESHOLD:
         return Abstention(f"no contract of this crew does that ({explain_reading(reading)})")
@@ -70,8 +72,11 @@ def propose(text: str, rules: Rules, state: PlannerState) -> Plan | Abstention:
     return Plan(best.casting.contract.name, calls) if calls else Abstention("nothing is left of the plan to do")
 
 
-def _bid(casting: Casting, reading: Reading, rules: Rules) -> Bid:
-    """Weigh the request's words by how few contracts they could mean; take off what the contract adds or drops."""
+def _bid(casting: Casting, reading: Reading, rules: Rules, state: PlannerState) -> Bid:
+    """Weigh the request's words by how few contracts they could mean; take off what the contract adds or drops.
+
+    A contract whose entry guard fails still bids, below the others: the gate says better why it does not apply.
+    """
     contract = casting.contract
     gained = total = 0.0
     asked: set[str] = set()
@@ -86,7 +91,8 @@ def _bid(casting: Casting, reading: Reading, rules: Rules) -> Bid:
             total += 0.5
             gained += 0.5 if _placed(mention, casting, rules) else 0.0
     missing = sum(1 for name in contract.asks if name not in asked)
-    share = gained / total - missing if total else 0.0
+    barred = not all(_entered(c, casting.slots, state) for c in contract.needs)
+    share = (gained / total - missing if total else 0.0) - (BARRED if barred else 0.0)
     return Bid(share, _likeness(contract, casting, reading), casting)
 
 
@@ -112,7 +118,7 @@ def _likeness(contract: Contract, casting: Casting, reading: Reading) -> float:
     return max((fuzz.token_sort_ratio(said, skeleton(e, fill)) for e in contract.examples), default=0.0)
 
 
-def _cast(contract: Contract, reading: Reading, rules: Rules, state: PlannerState) -> Casting | None:
+def _cast(contract: Contract, reading: Reading, rules: Rules) -> Casting | None:
     """Fill a contract's slots and roles; None where it cannot apply."""
     slots: dict[str, SlotValue] = {}
     for slot in contract.slots:
@@ -121,8 +127,6 @@ def _cast(contract: Contract, reading: Reading, rules: Rules, state: PlannerStat
             slots[slot.name] = value
         elif not slot.optional:
             return None
-    if not all(_holds(c, slots, state) for c in contract.needs):
-        return None
     roles = _roles(contract, reading, rules)
     return None if roles is None else Casting(contract, roles, slots)
 
@@ -146,7 +150,7 @@ def _preferred(licensed: tuple[SlotValue, ...], slot: Slot, contract: Contract, 
     return None if verbatim and not isinstance(resolved(value, slot, rules.crew), Zone) else value
 
 
-def _holds(condition: Condition, slots: Mapping[str, SlotValue], state: PlannerState) -> bool:
+def _entered(condition: Condition, slots: Mapping[str, SlotValue], state: PlannerState) -> bool:
     """Whether an entry guard holds as far as the planner knows; it leaves what it cannot know to the gate."""
     for slot, wanted in condition.when.items():
         given = slots.get(slot)
@@ -308,8 +312,3 @@ def _ancestors(step: Step, contract: Contract) -> set[str]:
             declared = contract.step(name)
             waiting.extend(declared.after if declared is not None else ())
     return found
-
-
-def slots_of(step: Step) -> Iterable[str]:
-    """The slots that a step's calls carry."""
-    return dict.fromkeys(name for pattern in step.do for name in slots_in(pattern.args.values()))

@@ -191,7 +191,7 @@ class RobotActor:
         args = msgspec.convert(dict(dispatch.args), skill.args)
         places = {name: self._place(dispatch, name) for name in dispatch.places}
         await within(self._clock, skill.timeout_s, self._adapter.execute(skill.name, args, places))
-        self.report.values()
+        self.report.values(skill.reports)
         await self._confirm(dispatch)
 
     def _place(self, dispatch: Dispatch, argument: str) -> Place:

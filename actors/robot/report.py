@@ -76,10 +76,10 @@ class Reporter:
         moving, airborne = readings.get("moving"), readings.get("airborne")
         return moving is not None and moving.value is False and (airborne is None or airborne.value is False)
 
-    def values(self) -> None:
-        """Publish the values that are new or have changed."""
+    def values(self, reported: tuple[str, ...] = ()) -> None:
+        """Publish the values that have changed, and those that a skill has just reported whether or not they have."""
         for name, reading in self._adapter.values().items():
-            if self._told.get(name) is not reading:
+            if name in reported or self._told.get(name) is not reading:
                 self._told[name] = reading
                 value = RobotValue(robot=self._actor.name, boot_id=self._actor.boot_id, reading=reading)
                 self._bus.put(self._keys.robot_value(self._actor.name, name), value, qos=Qos.EVENT)

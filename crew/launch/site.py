@@ -2,7 +2,7 @@
 
 from msgspec.structs import replace
 
-from crew.contracts.site import Rules, SimSpec
+from crew.contracts.site import Crew, Rules, SimSpec
 from crew.errors import UsageError
 from crew.launch.options import LaunchOptions
 from crew.library import load_rules
@@ -26,15 +26,17 @@ def resolve(options: LaunchOptions) -> Rules:
         seed=crew.sim.seed if options.seed is None else options.seed,
         faults=(*crew.sim.faults, *options.faults),
     )
-    return replace(rules, crew=replace(crew, sim=sim, obstacles=(*crew.obstacles, *_obstacles(sim))))
+    return replace(rules, crew=_surveyed(crew, sim))
 
 
-def _obstacles(sim: SimSpec) -> tuple[tuple[float, float, float], ...]:
-    """What a surveyor of the simulated site would have drawn: discs around every obstacle of its map."""
+def _surveyed(crew: Crew, sim: SimSpec) -> Crew:
+    """The crew with what a surveyor of the simulated site would have written: its origin, a disc for each obstacle."""
     from crew.sim.map import load_map
 
     try:
         site = load_map(sim.scene, sim.map)
     except ValueError as error:
         raise UsageError(f"the simulated site can't be loaded: {error}") from error
-    return tuple((o.x_m, o.y_m, o.reach_m) for o in site.obstacles)
+    obstacles = tuple((o.x_m, o.y_m, o.reach_m) for o in site.obstacles)
+    origin = (site.origin.lat_deg, site.origin.lon_deg, site.origin.alt_m)
+    return replace(crew, sim=sim, origin=origin, obstacles=(*crew.obstacles, *obstacles))
