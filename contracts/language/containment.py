@@ -194,7 +194,7 @@ def _coverage(case: Case) -> Finding | None:
         if mention.kind in ROBOT_KINDS:
             covered = acting >= set(mention.values) if mention.every else bool(acting & set(mention.values))
         else:
-            covered = any(same(v, p) for v in mention.values for p in values) and not _only_origin(case, mention)
+            covered = _holds(case, mention, values)
         if not covered and not _claimed(case, mention):
             message = f"'{mention.text}' in the request ({mention.name}) has no place in the plan; plan it or ask back"
             return Finding(code=Code.REQUEST_DROPPED, message=message, field="request", span=mention.span)
@@ -217,9 +217,18 @@ def _present(case: Case) -> list[SlotValue]:
     return [*found, *(v.name for v in crew.values if v.name in roots)]
 
 
-def _only_origin(case: Case, mention: Mention) -> bool:
-    """A place given as an origin is not honoured by going there."""
-    return mention.direction is Direction.FROM and not _claimed(case, mention)
+def _holds(case: Case, mention: Mention, values: list[SlotValue]) -> bool:
+    """Whether the plan carries what a mention names; a place given as an origin is not honoured by going there."""
+    if mention.direction is not Direction.TO and any(v in _constants(case) for v in mention.values):
+        return True
+    return mention.direction is not Direction.FROM and any(same(v, p) for v in mention.values for p in values)
+
+
+def _constants(case: Case) -> set[str]:
+    """Names that the contract itself writes into the calls, such as a fixed place for loading."""
+    declared = [case.contract.step(item.step) for item in case.instance.steps]
+    literals = {str(v) for step in declared if step is not None for p in step.do for v in p.args.values()}
+    return literals & {str(v) for item in case.instance.steps for v in item.call.args.values()}
 
 
 def _claimed(case: Case, mention: Mention) -> bool:

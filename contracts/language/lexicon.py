@@ -82,10 +82,14 @@ class Lexicon(msgspec.Struct, frozen=True, kw_only=True, dict=True):
 def match(table: Mapping[str, tuple[Entry, ...]], tokens: list[Token], at: int) -> Entry | None:
     """The longest entry of a table that starts at a token."""
     for entry in table.get(tokens[at].norm, ()):
-        end = at + len(entry.words)
-        if end <= len(tokens) and all(tokens[at + k].norm == word for k, word in enumerate(entry.words)):
+        if stands(tokens, at, entry.words):
             return entry
     return None
+
+
+def stands(tokens: list[Token], at: int, words: Words) -> bool:
+    """Whether the words stand here, given that the first one does."""
+    return len(words) == 1 or tuple(t.norm for t in tokens[at : at + len(words)]) == words
 
 
 def build_lexicon(rules: Rules) -> Lexicon:
@@ -297,4 +301,4 @@ def _index(entries: Iterable[Entry]) -> dict[str, tuple[Entry, ...]]:
     return {first: tuple(sorted(found, key=lambda e: -len(e.words))) for first, found in table.items()}
 
 
-__all__ = ["PLACE_NOUNS", "Entry", "Lexicon", "build_lexicon", "lexicon_of", "match", "words_of"]
+__all__ = ["PLACE_NOUNS", "Entry", "Lexicon", "build_lexicon", "lexicon_of", "match", "stands", "words_of"]

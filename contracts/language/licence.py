@@ -21,14 +21,16 @@ _KIND_OF_TYPE: Mapping[SlotType, MentionKind] = {
 
 
 def licensed_values(reading: Reading, slot: Slot, rules: Rules) -> tuple[SlotValue, ...] | None:
-    """The values that the request allows for a slot, in the order of the request; None if it is silent.
+    """The values that the request allows for a slot, the plainest first; None if it is silent.
 
     What nobody knows is licensed verbatim where a name of this slot could stand: it closes the slot to everything else.
     """
     del rules  # values in a reading are resolved already
-    named = [v for m in reading.wanted if _licenses(m, slot) for v in m.values]
+    named = [m for m in reading.wanted if _licenses(m, slot, reading)]
     if named:
-        return tuple(_distinct(named))
+        first = Direction.FROM if slot.said_from else Direction.TO
+        ranked = sorted(named, key=lambda m: m.direction is not first)
+        return tuple(_distinct(v for m in ranked for v in m.values))
     unknown = [m.name for m in reading.wanted if m.kind is MentionKind.UNKNOWN and _could_fill(m, slot, reading)]
     return tuple(unknown) or None
 
@@ -94,12 +96,13 @@ def shown(value: SlotValue, crew: Crew) -> str:
     return value if isinstance(value, str) else f"{value:g}"
 
 
-def _licenses(mention: Mention, slot: Slot) -> bool:
+def _licenses(mention: Mention, slot: Slot, reading: Reading) -> bool:
     if not fits(mention, slot):
         return False
-    if slot.said_from:
-        return mention.direction is not Direction.TO
-    return mention.direction is not Direction.FROM
+    if not slot.said_from or mention.direction is not Direction.NONE:
+        return (mention.direction is Direction.FROM) is slot.said_from
+    goals = (m for m in reading.wanted if m.direction is Direction.TO or m.kind is MentionKind.VALUE)
+    return any(m is not mention for m in goals)  # "the bottle on table_a to room_a"
 
 
 def _could_fill(mention: Mention, slot: Slot, reading: Reading) -> bool:

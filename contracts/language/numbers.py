@@ -6,7 +6,7 @@ World ENU, metres. A range on one axis alone spans the operational area on the o
 from collections.abc import Callable
 from typing import NamedTuple
 
-from crew.contracts.language.figures import Figure, figure, norm_at, skip
+from crew.contracts.language.figures import Figure, figure, is_numeral, norm_at, skip
 from crew.contracts.language.mention import MentionKind
 from crew.contracts.language.tokens import Token
 from crew.contracts.language.words import PLACE_NOUNS, ZONE_NOUNS
@@ -69,7 +69,7 @@ class _Range(NamedTuple):
 def read_figures(tokens: list[Token], area: Zone, takes_zone: Callable[[int], bool]) -> list[Figures]:
     """All points, zones and altitudes in figures. `takes_zone(at)`: whether the action before a token takes a zone."""
     found: list[Figures] = []
-    at = 0
+    at = 0 if any(is_numeral(tokens, k) for k in range(len(tokens))) else len(tokens)
     while at < len(tokens):
         hit = _zone(tokens, at, area, takes_zone) or _altitude(tokens, at) or _point_mention(tokens, at)
         if hit is not None and hit.kind is MentionKind.ZONE:

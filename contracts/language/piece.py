@@ -86,9 +86,15 @@ def of_entry(entry: Entry, first: int, after: int, possessive: bool) -> Piece:
 
 def before(pieces: list[Piece], at: int, passing: frozenset[Role] = SOFT) -> Piece | None:
     """The nearest earlier piece that is not soft."""
-    return next((p for p in reversed(pieces[:at]) if p.role not in passing), None)
+    for index in range(at - 1, -1, -1):
+        if pieces[index].role not in passing:
+            return pieces[index]
+    return None
 
 
 def behind(pieces: list[Piece], at: int, passing: frozenset[Role] = SOFT) -> Piece | None:
     """The nearest later piece that is not soft."""
-    return next((p for p in pieces[at + 1 :] if p.role not in passing), None)
+    for index in range(at + 1, len(pieces)):
+        if pieces[index].role not in passing:
+            return pieces[index]
+    return None

@@ -13,13 +13,17 @@ from crew.contracts.language.tokens import Token, tokenize
 from crew.contracts.language.words import Role
 
 MAX_CHARACTERS = 4_000
+MAX_TOKENS = 400
 
 
 def read_request(text: str, lexicon: Lexicon) -> Reading:
     """Everything that the request names, with polarity and direction, and everything that was not understood."""
     if len(text) > MAX_CHARACTERS:
-        return _too_long(text)
+        return _too_long(text, MAX_CHARACTERS, f"{len(text)} characters; at most {MAX_CHARACTERS} are read")
     tokens = tokenize(text)
+    if len(tokens) > MAX_TOKENS:
+        why = f"{len(tokens)} words and marks; at most {MAX_TOKENS} are read"
+        return _too_long(text, tokens[MAX_TOKENS].start, why)
     pieces = noun_phrases(Scanner(tokens, lexicon).scan())
     loose_ends(pieces)
     _everything(pieces, lexicon)
@@ -28,20 +32,19 @@ def read_request(text: str, lexicon: Lexicon) -> Reading:
     place_pronouns(pieces)
     directions(pieces, tokens)
     doubts = polarities(pieces, tokens)
-    doubts += pronouns(pieces, tokens, lexicon)
-    directions(pieces, tokens)
+    if any(p.role is Role.PRONOUN for p in pieces):
+        doubts += pronouns(pieces, tokens, lexicon)
+        directions(pieces, tokens)
     doubts += contradictions(pieces, tokens)
     governors(pieces)
     return _assemble(text, tokens, pieces, doubts)
 
 
-def _too_long(text: str) -> Reading:
-    why = f"the request has {len(text)} characters; at most {MAX_CHARACTERS} are read"
-    span = (MAX_CHARACTERS, len(text))
+def _too_long(text: str, end: int, why: str) -> Reading:
+    """Nothing is read of a request beyond bounds: half of it could mean the opposite."""
+    span = (end, len(text))
     return Reading(
-        text=text[:MAX_CHARACTERS],
-        unread=(Unread(text[MAX_CHARACTERS : MAX_CHARACTERS + 20], span),),
-        ambiguous=(Ambiguity(why, span),),
+        text=text[:end], unread=(Unread(text[end : end + 20], span),), ambiguous=(Ambiguity(f"it has {why}", span),)
     )
 
 

@@ -13,6 +13,7 @@ from crew.contracts.language.words import PLACE_NOUNS, Role
 _PLACES = (MentionKind.VALUE, MentionKind.LOCATION, MentionKind.POINT)
 _ROBOTS = (MentionKind.ROBOT, MentionKind.ROBOT_CLASS)
 _PEOPLE = frozenset(("him", "her", "his"))
+_ORDERING = frozenset((Role.THEN, Role.AFTER, Role.FIRST))
 _PASSED = SOFT | {Role.BE, Role.TO}
 
 Group = tuple[MentionKind, ...]
@@ -156,6 +157,8 @@ def _called(pieces: list[Piece], at: int, previous: Piece | None) -> bool:
 def orders(pieces: list[Piece]) -> Iterator[tuple[Piece, Piece]]:
     """Pairs of verbs that the request puts in order."""
     for at, piece in enumerate(pieces):
+        if piece.role not in _ORDERING:
+            continue
         earlier = next((p for p in reversed(pieces[:at]) if p.is_action and p.positive), None)
         later = [p for p in pieces[at + 1 :] if p.is_action and p.positive]
         if piece.role is Role.THEN and earlier is not None and later:
@@ -163,8 +166,7 @@ def orders(pieces: list[Piece]) -> Iterator[tuple[Piece, Piece]]:
         elif piece.role is Role.FIRST and len(later) > 1:
             yield later[0], later[1]
         elif piece.role is Role.AFTER and later:
-            opening = earlier is None or before(pieces, at, SOFT) in (None,) or _starts_clause(pieces, at)
-            if not opening and earlier is not None:
+            if earlier is not None and not _starts_clause(pieces, at):
                 yield later[0], earlier
             elif len(later) > 1:
                 yield later[0], later[1]

@@ -1,7 +1,7 @@
 """From tokens to pieces: figures first, then the longest known phrase, with the few idioms that need a look ahead."""
 
 from crew.contracts.language.figures import is_numeral
-from crew.contracts.language.lexicon import Entry, Lexicon, match
+from crew.contracts.language.lexicon import Entry, Lexicon, match, stands
 from crew.contracts.language.mention import ROBOT_KINDS, MentionKind
 from crew.contracts.language.numbers import Figures, read_figures
 from crew.contracts.language.piece import Piece, of_entry
@@ -174,9 +174,10 @@ class Scanner:
 
     def _special(self, role: Role, at: int) -> Entry | None:
         """A function word of a role that holds only before a fitting word."""
-        found = (e for e in self.lexicon.special.get(self.tokens[at].norm, ()) if e.role is role)
-        fits = (e for e in found if [t.norm for t in self.tokens[at : at + len(e.words)]] == list(e.words))
-        return next(fits, None)
+        for entry in self.lexicon.special.get(self.tokens[at].norm, ()):
+            if entry.role is role and stands(self.tokens, at, entry.words):
+                return entry
+        return None
 
     def _name(self, at: int) -> Entry | None:
         return match(self.lexicon.names, self.tokens, at) if at < len(self.tokens) else None
@@ -186,9 +187,8 @@ class Scanner:
         if at >= len(self.tokens):
             return None
         for entry in self.lexicon.names.get(self.tokens[at].norm, ()):
-            size = len(entry.words)
-            fits = entry.kind is MentionKind.ACTION and size <= shorter_than
-            if fits and [t.norm for t in self.tokens[at : at + size]] == list(entry.words):
+            fits = entry.kind is MentionKind.ACTION and len(entry.words) <= shorter_than
+            if fits and stands(self.tokens, at, entry.words):
                 return entry
         return None
 

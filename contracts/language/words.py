@@ -56,9 +56,9 @@ FUNCTION_WORDS: dict[Role, tuple[str, ...]] = {
         "go ahead", "if you please", "if you can", "if possible", "nothing else", "nothing more", "too", "as well",
         "good morning", "good afternoon", "good evening", "dear", "also", "it is time to", "time to",
         "your task is to", "your job is to", "your mission is to", "the task is to", "you have to", "you need to",
-        
-        "it would be nice to", "it would be great to", "it would be nice if you could",
-        "it would be great if you could", "if you could", "has to", "needs to", "have to", "need to", "the job is to", "take care to", "be so kind", "be so kind as",
+        "it would be nice to", "it would be great to", "it would be nice if you could", "if you could",
+        "it would be great if you could", "has to", "needs to", "have to", "need to", "the job is to", "take care to",
+        "be so kind", "be so kind as",
     ),
     Role.MODAL: ("should", "shall", "must", "can", "could", "would", "ought"),
     Role.BE: ("be", "been", "is", "are", "has", "have", "has been", "have been", "get", "gets"),

@@ -8,7 +8,7 @@ import msgspec
 from ruamel.yaml import YAML
 
 from crew.actors.planner.embedded import Abstention, PlannerState, propose
-from crew.contracts.arguments import check_call
+from crew.contracts.gate.arguments import check_call
 from crew.contracts.language.containment import check_containment, check_reading
 from crew.contracts.language.lexicon import lexicon_of
 from crew.contracts.language.reading import read_request
@@ -95,5 +95,7 @@ def mistake(request: Request, rules: Rules) -> str:
     if request.contract and judged.instance.contract != request.contract:
         return f"contract {judged.instance.contract}"
     wanted = {name: value_of(written, rules) for name, written in request.slots.items()}
-    wrong = {name: judged.instance.slots.get(name) for name, v in wanted.items() if judged.instance.slots.get(name) != v}
+    wrong = {
+        name: judged.instance.slots.get(name) for name, v in wanted.items() if judged.instance.slots.get(name) != v
+    }
     return f"slots {wrong}" if wrong else ""
