@@ -10,7 +10,7 @@ from crew.contracts.contract_role import check_roles
 from crew.contracts.contract_scope import PLAIN_TYPES, Scope
 from crew.contracts.contract_value import check_argument, check_default
 from crew.contracts.skill import Skill
-from crew.contracts.source import Loc, Problems, nearest_name
+from crew.contracts.source import Loc, Problems
 
 _PLACEHOLDER = re.compile(r"\{([^{}]*)\}")
 
@@ -56,13 +56,14 @@ def _check_examples(model: ContractModel, problems: Problems) -> None:
 
 
 def _balanced(text: str) -> bool:
-    open_: list[str] = []
+    closing = {"(": ")", "{": "}"}
+    awaited: list[str] = []
     for char in text:
-        if char in "({":
-            open_.append(char)
-        elif char in ")}" and (not open_ or open_.pop() != {")": "(", "}": "{"}[char]):
+        if char in closing:
+            awaited.append(closing[char])
+        elif char in closing.values() and (not awaited or awaited.pop() != char):
             return False
-    return not open_
+    return not awaited
 
 
 def _check_step(name: str, step: StepModel, model: ContractModel, scope: Scope, problems: Problems) -> None:
@@ -86,10 +87,9 @@ def _skill(name: str, step: StepModel, loc: Loc, scope: Scope, problems: Problem
         found = next((skill for kind in scope.kinds if (skill := kind.skill(name))), None)
     if found is None:
         kinds = ", ".join(kind.name for kind in scope.kinds) or "none"
+        what = f"unknown skill: no kind of crew {scope.crew.name} has it ({kinds})"
         valid = [skill.name for kind in scope.kinds for skill in kind.skills]
-        problems.unknown(
-            loc, f"unknown skill: no kind of crew {scope.crew.name} has it ({kinds})", name, valid, key=True
-        )
+        problems.unknown(loc, what, name, valid, key=True)
     return found
 
 
@@ -184,10 +184,10 @@ def _check_never(model: ContractModel, scope: Scope, problems: Problems) -> None
 
 
 def _starts(text: str, loc: Loc, scope: Scope, problems: Problems) -> Skill | None:
-    role, dot, name = text.partition(".")
-    valid = [f"{role_}.{skill.name}" for role_ in scope.casts for k in scope.kinds_of(role_) for skill in k.skills]
-    found = scope.skill_of(role, name) if dot and role in scope.casts else None
+    role, _, name = text.partition(".")
+    found = scope.skill_of(role, name) if role in scope.casts else None
     if found is None:
-        facts = {"observed": repr(text), "nearest": nearest_name(text, valid), "allowed": ", ".join(valid)}
-        problems.at(loc, "not the start of a skill by a role", **facts, fix="write <role>.<skill>")
+        valid = [f"{known}.{skill.name}" for known in scope.casts for k in scope.kinds_of(known) for skill in k.skills]
+        fix = "write <role>.<skill>"
+        problems.unknown(loc, "not the start of a skill by a role", text, valid, fix=fix)
     return found

@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 
 from crew.contracts.crew_model import AreaModel, CrewModel, ZoneModel
-from crew.contracts.source import Loc, Problems
+from crew.contracts.source import Loc, Problems, locate
 
 AREA = "operational_area"
 """The zone that is the whole area."""
@@ -20,12 +20,11 @@ def check(model: CrewModel, problems: Problems) -> None:
     for name, zone in model.zones.items():
         _check_zone(name, zone, model, problems)
     for name, place in model.locations.items():
-        _check_inside(place.at, ("locations", name, "at"), model.area, problems)
+        _check_inside([place.at], ("locations", name, "at"), model.area, problems)
     for index, (_, _, radius) in enumerate(model.obstacles):
         if radius <= 0:
-            problems.at(
-                ("obstacles", index, 2), "radius of an obstacle", observed=f"{radius:g}", allowed="more than 0 m"
-            )
+            facts = {"observed": f"{radius:g}", "allowed": "more than 0 m"}
+            problems.at(("obstacles", index, 2), "radius of an obstacle", **facts)
     for index, name in enumerate(model.contracts):
         if name in model.contracts[:index]:
             problems.at(("contracts", index), "contract listed twice", observed=repr(name), fix="remove one")
@@ -67,26 +66,19 @@ def _check_zone(name: str, zone: ZoneModel, model: CrewModel, problems: Problems
     lacking = [axis for axis in ("x", "y") if getattr(zone, axis) is None]
     if lacking:
         problems.key(loc, f"zone {name} lacks {' and '.join(lacking)}", fix=f"write {lacking[0]}: [lowest, highest]")
-    elif _check_ranges(zone, loc, problems):
-        assert zone.x is not None
-        assert zone.y is not None
-        for corner in zip(zone.x, zone.y, strict=True):
-            if not _inside(list(corner), model.area):
-                _check_inside(list(corner), loc, model.area, problems)
-                return
+    elif _check_ranges(zone, loc, problems) and zone.x and zone.y:
+        corners = [[x, y] for x, y in zip(zone.x, zone.y, strict=True)]
+        _check_inside(corners, loc, model.area, problems)
 
 
-def _check_inside(at: list[float], loc: Loc, area: AreaModel, problems: Problems) -> None:
-    if not _inside(at, area):
-        allowed = f"x from {area.x[0]:g} to {area.x[1]:g}, y from {area.y[0]:g} to {area.y[1]:g} m"
-        observed = f"({at[0]:g}, {at[1]:g})"
-        problems.at(
-            loc, "outside the operational area", observed=observed, allowed=allowed, fix="move it, or widen the area"
-        )
-
-
-def _inside(at: list[float], area: AreaModel) -> bool:
-    return area.x[0] <= at[0] <= area.x[1] and area.y[0] <= at[1] <= area.y[1]
+def _check_inside(points: list[list[float]], loc: Loc, area: AreaModel, problems: Problems) -> None:
+    """The first point that is outside is reported, if there is one."""
+    for x, y in points:
+        if not (area.x[0] <= x <= area.x[1] and area.y[0] <= y <= area.y[1]):
+            allowed = f"x from {area.x[0]:g} to {area.x[1]:g}, y from {area.y[0]:g} to {area.y[1]:g} m"
+            facts = {"observed": f"({x:g}, {y:g})", "allowed": allowed, "fix": "move it, or widen the area"}
+            problems.at(loc, "outside the operational area", **facts)
+            return
 
 
 def _check_names(model: CrewModel, problems: Problems) -> None:
@@ -94,21 +86,11 @@ def _check_names(model: CrewModel, problems: Problems) -> None:
     owners: dict[str, tuple[Loc, int]] = {}
     for owner, loc, is_name, words in _spoken(model):
         meaning = plain_words(words)
-        line = _line(problems, loc, is_name)
-        if not meaning:
-            problems.at(loc, "an alias without a word", observed=repr(words), fix="remove it")
-            continue
-        first, first_line = owners.setdefault(meaning, (owner, line))
+        place = locate(problems.root, loc, key=is_name)
+        first, line = owners.setdefault(meaning, (owner, place.line))
         if first != owner:
-            fix = f"line {first_line} gives it to {_called(first)}; take it from one of the two"
-            what = f"{words!r} means two things"
-            (problems.key if is_name else problems.at)(loc, what, observed=f"also {_called(owner)}", fix=fix)
-
-
-def _line(problems: Problems, loc: Loc, is_name: bool) -> int:
-    from crew.contracts.source import locate
-
-    return locate(problems.root, loc, key=is_name).line
+            fix = f"line {line} gives it to {_called(first)}; take it from one of the two"
+            problems.add(place, f"{words!r} means two things", observed=f"also {_called(owner)}", fix=fix)
 
 
 def _spoken(model: CrewModel) -> Iterator[tuple[Loc, Loc, bool, str]]:

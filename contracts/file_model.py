@@ -1,5 +1,6 @@
 """What the models of contract and crew files share: strict shapes, and pydantic's complaints in plain words."""
 
+import math
 import re
 from collections.abc import Callable
 from typing import Annotated, Any, ClassVar, NamedTuple, TypeVar
@@ -17,7 +18,7 @@ from pydantic import (
 )
 from pydantic_core import ErrorDetails, PydanticCustomError
 
-from crew.contracts.source import Block, Items, Loc, Problems, nearest_name
+from crew.contracts.source import LONGEST, Block, Items, Loc, Problems, nearest_name
 
 Name = Annotated[str, StringConstraints(pattern="^[a-z][a-z0-9_]{0,39}$")]
 SOME_TEXT = r"\S"
@@ -45,9 +46,8 @@ class FileModel(BaseModel):
         for key in data.keys() - set(valid):
             facts = {"observed": repr(key), "allowed": ", ".join(valid), "nearest": nearest_name(key, valid)}
             info.context.add(data.key_marks[key], f"unknown key of {cls.called}", **facts)
-        return {
-            key: value for key, value in data.items() if key in valid and not _is_empty(cls, key, data, info.context)
-        }
+        empty = {key for key in valid if key in data and _is_empty(cls, key, data, info.context)}
+        return {key: value for key, value in data.items() if key in valid and key not in empty}
 
 
 M = TypeVar("M", bound=FileModel)
@@ -99,7 +99,7 @@ def _argument(value: Any) -> float | str:
 
 
 def _finite(value: float) -> float:
-    if value - value != 0.0:
+    if not math.isfinite(value):
         raise PydanticCustomError("finite_number", "expected a finite number")
     return value
 
@@ -152,8 +152,8 @@ _KINDS = {
     "greater_than": "more than {gt:g}",
     "greater_than_equal": "{ge:g} or more",
     "less_than_equal": "{le:g} or less",
-    "too_short": "{min_length} or more entries",
-    "too_long": "{max_length} or fewer entries",
+    "too_short": "at least {min_length}",
+    "too_long": "at most {max_length}",
 }
 
 
@@ -191,11 +191,10 @@ def show(value: Any) -> str:
         return "nothing"
     if isinstance(value, bool):
         return str(value).lower()
-    if isinstance(value, Block | Items | dict | list):
-        size = len(value)
-        return f"a {'list' if isinstance(value, list) else 'mapping'} of {size}"
+    if isinstance(value, dict | list):
+        return f"a {'list' if isinstance(value, list) else 'mapping'} of {len(value)}"
     if isinstance(value, str):
-        return repr(value if len(value) <= 60 else value[:57] + "...")
+        return repr(value if len(value) <= LONGEST else value[:LONGEST] + "...")
     return f"{value:g}" if isinstance(value, float) else str(value)
 
 

@@ -11,7 +11,9 @@ Loc = tuple[str | int, ...]
 """The way to a node: keys of mappings and indices of lists, from the document's root."""
 
 SHOWN = 20
-"""Of a file's problems this many are printed; the rest is counted."""
+"""Of a file's problems, and of the valid names, this many are printed; the rest is counted."""
+LONGEST = 60
+"""Characters of a written text that a message repeats."""
 
 
 class Mark(NamedTuple):
@@ -107,7 +109,10 @@ class Problems:
     ) -> None:
         """A name that is none of `valid`: lists them, and the nearest."""
         names = list(dict.fromkeys(valid))
-        facts = {"observed": repr(name), "allowed": ", ".join(names) or "none", "nearest": nearest_name(name, names)}
+        more = [f"... ({len(names)} in all)"] if len(names) > SHOWN else []
+        allowed = ", ".join([*names[:SHOWN], *more]) or "none"
+        shown = repr(name if len(name) <= LONGEST else name[:LONGEST] + "...")
+        facts = {"observed": shown, "allowed": allowed, "nearest": nearest_name(name, names)}
         self.add(locate(self.root, loc, key=key), what, **facts, fix=fix)
 
     def add(self, mark: Mark, what: str, **facts: str) -> None:
@@ -145,5 +150,5 @@ def nearest_name(name: str, valid: Iterable[str]) -> str:
     """The valid name that was probably meant, or an empty text."""
     from difflib import get_close_matches
 
-    close = get_close_matches(name[:100].lower(), list(valid), n=1, cutoff=0.6)
+    close = get_close_matches(name[:LONGEST].lower(), list(valid), n=1, cutoff=0.6)
     return close[0] if close else ""

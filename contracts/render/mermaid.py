@@ -1,9 +1,9 @@
 """A contract as a Mermaid flowchart: steps as boxes, `after` as arrows."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
-from crew.contracts.contract import Contract, Step
-from crew.contracts.render.wording import guard_words, listed
+from crew.contracts.contract import Condition, Contract, Step
+from crew.contracts.render.wording import guard_words
 
 
 def contract_graph(contract: Contract) -> str:
@@ -14,10 +14,10 @@ def contract_graph(contract: Contract) -> str:
 def _lines(contract: Contract) -> Iterator[str]:
     yield "flowchart TD"
     if contract.needs:
-        yield f'  start(["{_escape(_list("only if", [guard_words(guard) for guard in contract.needs]))}"])'
+        yield f'  start(["{_guards("needs", contract.needs)}"])'
     yield from (f'  {_id(step)}["{_label(step)}"]{":::optional" if step.optional else ""}' for step in contract.steps)
     if contract.complete:
-        yield f'  done(["{_escape(_list("complete when", [guard_words(guard) for guard in contract.complete]))}"])'
+        yield f'  done(["{_guards("complete when", contract.complete)}"])'
     yield from _arrows(contract)
     if any(step.optional for step in contract.steps):
         yield "  classDef optional stroke-dasharray: 5 5"
@@ -41,14 +41,15 @@ def _label(step: Step) -> str:
     skills = " or ".join(dict.fromkeys(call.skill for call in step.do))
     lines = [f"<b>{step.name}</b>", f"{step.role}: {skills}"]
     if step.needs:
-        lines.append(_escape(_list("only if", [guard_words(guard) for guard in step.needs])))
+        lines.append(_guards("needs", step.needs))
     if step.approval:
         lines.append("a person approves")
     return "<br/>".join(lines)
 
 
-def _list(head: str, clauses: list[str]) -> str:
-    return f"{head} {listed(clauses)}"
+def _guards(head: str, conditions: Iterable[Condition]) -> str:
+    """One guard a line."""
+    return "<br/>".join([head, *(_escape(guard_words(condition)) for condition in conditions)])
 
 
 def _id(step: Step) -> str:

@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 
 from crew.contracts.contract import Contract, Never, Role, Slot, SlotType, Step
-from crew.contracts.render.wording import args_words, call_words, fluent_words, guard_words, listed, shown
+from crew.contracts.render.wording import call_words, fluent_words, guard_words, guards_words, listed, shown
 
 
 def contract_prose(contract: Contract) -> str:
@@ -23,8 +23,8 @@ def _lines(contract: Contract) -> Iterator[str]:
     if contract.asks:
         yield f"The request must ask for {listed(contract.asks)}; the other steps support."
     yield from _section("Must never happen", [_never(never) for never in contract.never])
-    done = listed([guard_words(guard) for guard in contract.complete] or ["every step of the plan is done"])
-    yield f"Complete when {done}, within {contract.deadline_s:g} s."
+    done = ["every step of the plan is done", *map(guard_words, contract.complete)]
+    yield f"Complete when {'; '.join(done)}. Deadline: {contract.deadline_s:g} s."
     if contract.preempts:
         yield "It ends the missions that hold its robots."
 
@@ -60,15 +60,14 @@ def _step(step: Step) -> Iterator[str]:
     order = f", after {listed(step.after)}" if step.after else ""
     yield f"{choice}{step.name}{order}: {step.role} does {listed(map(call_words, step.do), word='or')}"
     if step.needs:
-        yield f"  only if {listed(guard_words(guard) for guard in step.needs)}"
+        yield f"  needs: {guards_words(step.needs)}"
     if step.approval:
-        yield "  only after a person has approved the exact call"
+        yield "  needs a person's approval of the exact call"
 
 
 def _never(never: Never) -> str:
     role, _, skill = never.starts.partition(".")
-    args = [args_words({name: value}) for name, value in never.with_args.items()]
-    args += [args_words({name: f"not {shown(value)}"}) for name, value in never.without_args.items()]
+    args = [f"{name} {shown(value)}" for name, value in never.with_args.items()]
+    args += [f"{name} other than {shown(value)}" for name, value in never.without_args.items()]
     given = f" with {listed(args)}" if args else ""
-    state = listed(guard_words(condition) for condition in never.when)
-    return f"{role} starts {skill}{given} while {state} ({never.why})"
+    return f"{role} starts {skill}{given} while {guards_words(never.when)} ({never.why})"

@@ -13,6 +13,11 @@ def guard_words(condition: Condition) -> str:
     return prefix + clause(condition.path, condition.value, negated=condition.negated)
 
 
+def guards_words(conditions: Iterable[Condition]) -> str:
+    """Guards that must all hold: `carrier is at pickup; carrier is not moving`."""
+    return "; ".join(map(guard_words, conditions))
+
+
 def clause(path: str, value: FluentLiteral, *, negated: bool = False) -> str:
     """A fluent or status and its value, in words."""
     subject, _, name = path.partition(".")

@@ -83,7 +83,7 @@ MISTAKES = [
     (", y: [2, 10]", "", "north", "zone north lacks y; write y: [lowest, highest]"),
     ("{aliases: [everywhere]}", "{x: [0, 1]}", "[0, 1]", "operational_area differs from the area; leave x out"),
     ("at: [-4, -4]", "at: [-4, -7]", "[-4, -7]", "found (-4, -7), allowed: x from -6 to 10, y from -6 to 10 m"),
-    ("at: [-4, -4]", "at: [-4]", "[-4]", "found a list of 1, allowed: 2 or more entries"),
+    ("at: [-4, -4]", "at: [-4]", "[-4]", "found a list of 1, allowed: at least 2"),
     ("at: [-4, -4]", "at: [-4, 5 ft]", "5 ft", "allowed: a number; write the number alone, without a unit"),
     ("standoff_m: 0.3", "standoff_m: 0.3m", "0.3m", "without a unit, in metres"),
     ("standoff_m: 0.3", "standoff_m: -1", "-1}", "found -1, allowed: 0 or more"),
