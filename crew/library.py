@@ -5,13 +5,14 @@ Importing it stays cheap: the YAML reader and the models are imported when a fil
 
 from collections.abc import Mapping, Sequence
 from functools import cache
-from importlib.metadata import EntryPoint, entry_points
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from crew.errors import UsageError, nearest
 
 if TYPE_CHECKING:
+    from importlib.metadata import EntryPoint
+
     from crew.contracts.contract import Contract
     from crew.contracts.site import Crew, Rules
     from crew.contracts.skill import Kind
@@ -102,7 +103,9 @@ def load_kind(name: str) -> "Kind":
 
 
 @cache
-def _kind_entries() -> Mapping[str, EntryPoint]:
+def _kind_entries() -> "Mapping[str, EntryPoint]":
+    from importlib.metadata import entry_points
+
     return {entry.name: entry for entry in entry_points(group=KINDS_GROUP)}
 
 
