@@ -105,13 +105,13 @@ def _zone(tokens: list[Token], at: int, area: Zone, takes_zone: Callable[[int], 
 
 def _range(tokens: list[Token], at: int) -> _Range | None:
     """One range with the axis or axes that it is for, named before or behind it."""
+    labelled = _labelled_span(tokens, at)
+    if labelled is not None:
+        return labelled
     axes, after = _axes(tokens, skip(tokens, at, "for", "in", "on"))
     if axes:
         span = _span(tokens, skip(tokens, after, ":", "=", "in", "is", "range", "ranges", "axis"), opened=True)
         return None if span is None else _Range(axes, span[0], span[1])
-    labelled = _labelled_span(tokens, at)
-    if labelled is not None:
-        return labelled
     span = _span(tokens, at, opened=False)
     if span is None or norm_at(tokens, span[1]) not in ("in", "on", "along", "for"):
         return None
@@ -162,10 +162,8 @@ def _span(tokens: list[Token], at: int, *, opened: bool) -> tuple[Interval, int]
 
 
 def _labelled_span(tokens: list[Token], at: int) -> _Range | None:
-    """`from x = 0 to x = 4`."""
-    if norm_at(tokens, at) not in ("from", "between"):
-        return None
-    low = _labelled(tokens, at + 1)
+    """`from x = 0 to x = 4`, `x = 0 to x = 4`."""
+    low = _labelled(tokens, skip(tokens, at, "from", "between"))
     if low is None or norm_at(tokens, low[1].after) not in ("to", "and"):
         return None
     high = _labelled(tokens, low[1].after + 1)

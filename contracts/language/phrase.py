@@ -165,7 +165,10 @@ def _nested(inner: Piece, outer: Piece) -> bool:
 
 
 def _after_verb_and_article(pieces: list[Piece]) -> None:
-    """In `search the land` the second word is a thing, not a verb."""
+    """In `search the land` the second word is a thing, not a verb; in `report the coordinates` it says the same."""
     for verb, article, piece in zip(pieces, pieces[1:], pieces[2:], strict=False):
         if verb.is_action and article.role is Role.DETERMINER and piece.is_action and article.norm in ("the", "a"):
-            piece.become_unknown(piece.first, piece.after)
+            if set(verb.means) & set(piece.means):
+                piece.become(Role.FILLER)
+            else:
+                piece.become_unknown(piece.first, piece.after)

@@ -96,14 +96,24 @@ def participles(pieces: list[Piece]) -> None:
     for at, piece in enumerate(pieces):
         if piece.is_action and piece.form is Form.PAST:
             auxiliary = pieces[at - 1] if at and pieces[at - 1].role is Role.BE else None
-            if (auxiliary is not None and auxiliary.norm == "be") or _in_time_clause(pieces, at):
+            passive = auxiliary is not None and auxiliary.norm == "be"
+            if passive or _in_time_clause(pieces, at) or _wanted_done(pieces, at):
                 if auxiliary is not None:
                     auxiliary.become(Role.FILLER)
             else:
                 piece.become(Role.UNREAD)
     for at, piece in enumerate(pieces):
         if piece.role is Role.BE:
-            piece.become(Role.FILLER if _ends_where(pieces, at) else Role.UNREAD)
+            negated = at + 1 < len(pieces) and pieces[at + 1].role is Role.NOT
+            piece.become(Role.FILLER if negated or _ends_where(pieces, at) else Role.UNREAD)
+
+
+def _wanted_done(pieces: list[Piece], at: int) -> bool:
+    """`I want the area searched`."""
+    if at == 0 or not pieces[at - 1].is_entity:
+        return False
+    verb = before(pieces, at - 1, frozenset((Role.DETERMINER, Role.QUANTIFIER)))
+    return verb is not None and verb.role is Role.FILLER and verb.norm.endswith(("want", "need", "like"))
 
 
 def _in_time_clause(pieces: list[Piece], at: int) -> bool:
@@ -136,6 +146,9 @@ def _governor_of_robot(pieces: list[Piece], at: int, last: Piece | None) -> Piec
     previous, following = before(pieces, at), behind(pieces, at, _PASSED)
     if previous is not None and previous.is_action:
         return previous
+    purpose = at + 1 < len(pieces) and pieces[at + 1].role is Role.TO
+    if purpose and following is not None and following.is_action:
+        return following
     if previous is not None and previous.role is Role.WITH:
         return last or next((p for p in pieces[at:] if p.is_action), None)
     if following is not None and following.is_action:

@@ -6,7 +6,7 @@ from crew.contracts.language.mention import ROBOT_KINDS, MentionKind
 from crew.contracts.language.numbers import Figures, read_figures
 from crew.contracts.language.piece import Piece, of_entry
 from crew.contracts.language.tokens import Shape, Token
-from crew.contracts.language.words import ADVERBS, PARTICLES, PLACE_NOUNS, Role
+from crew.contracts.language.words import ADVERBS, PARTICLES, PLACE_NOUNS, SELF_WORDS, Role
 
 _ARTICLES = frozenset(("the", "a", "an", "all", "both", "your", "our", "my", "any"))
 _LIGHT_LINKS = ("and", "to", "by", "with")
@@ -169,7 +169,7 @@ class Scanner:
         token = self.tokens[at]
         if token.norm == "out" and self.pieces and self.pieces[-1].is_action:
             return Piece(at, at + 1, Role.FILLER)  # "find out", "check out"
-        unread = is_numeral(self.tokens, at) or token.norm in ADVERBS or token.norm.endswith("ly")
+        unread = is_numeral(self.tokens, at) or token.norm in _NEVER_NAMES or token.norm.endswith("ly")
         return Piece(at, at + 1, Role.UNREAD if unread else Role.WORD, norm=token.norm, possessive=token.possessive)
 
     def _special(self, role: Role, at: int) -> Entry | None:
@@ -204,6 +204,7 @@ class Scanner:
         return False
 
 
+_NEVER_NAMES = ADVERBS | frozenset(SELF_WORDS)
 _NAME_FOLLOWS = frozenset(
     (Role.DETERMINER, Role.QUANTIFIER, Role.TO, Role.AT, Role.OVER, Role.NEAR, Role.FROM, Role.OF)
 )

@@ -62,7 +62,7 @@ def _negate(pieces: list[Piece], at: int, tokens: list[Token], doubts: list[Ambi
 def _subject(pieces: list[Piece], at: int) -> list[Piece]:
     """The robot in front of the negation: `the rover must not move`."""
     robot = before(pieces, at, _PASSED)
-    following = behind(pieces, at, _PASSED)
+    following = behind(pieces, at, _PASSED | {Role.TO})
     if robot is None or not robot.is_robot or not (following is None or following.is_action or following.role in _ENDS):
         return []
     owner = before(pieces, pieces.index(robot))
