@@ -1,6 +1,6 @@
 """Plans matched to contracts: calls map one to one onto steps under one binding of roles and slots.
 
-A mismatch is diagnosed by the first constraint that no assignment satisfies: skills, arguments, roles, completeness, order.
+A mismatch is diagnosed by the assignment that came furthest: skills, arguments, roles, completeness, order.
 """
 
 from collections.abc import Iterator, Mapping

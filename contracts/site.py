@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from typing import Any
 
 import msgspec
+from msgspec.structs import replace
 
 from crew.contracts.contract import Contract
 from crew.contracts.plan import Zone, digest
@@ -119,6 +120,7 @@ class Rules(msgspec.Struct, frozen=True, kw_only=True, dict=True):
         )
 
     def digest(self) -> str:
-        """SHA-256 over crew, kinds and contracts."""
+        """SHA-256 over crew, kinds and contracts, wherever their files lie."""
         kinds = {name: kind.digest for name, kind in self.kinds.items()}
-        return digest({"crew": self.crew, "kinds": kinds, "contracts": dict(self.contracts)})
+        contracts = {name: replace(contract, source="") for name, contract in self.contracts.items()}
+        return digest({"crew": replace(self.crew, source=""), "kinds": kinds, "contracts": contracts})

@@ -33,7 +33,7 @@ class AdapterError(CrewError):
         self.reason = reason
 
 
-class Latched(AdapterError):
+class Latched(AdapterError):  # noqa: N818 - an outcome, in the words of the stop
     """The robot's stop is latched: nothing but its own landing may move it until a reset."""
 
     def __init__(self, message: str) -> None:

@@ -114,8 +114,8 @@ def _stems(folder: Path) -> list[str]:
 
 
 def _load_crew(text: str, path: Path) -> "Crew":
-    from crew.contracts.crew_file import load_crew
-    from crew.contracts.source import SourceErrors
+    from crew.contracts.files.crew_file import load_crew
+    from crew.contracts.files.source import SourceErrors
 
     try:
         return load_crew(text, source=str(path))
@@ -139,7 +139,7 @@ def _check_references(crew: "Crew", contracts: Mapping[str, Path | None], text: 
     bad_contracts = [index for index, name in enumerate(crew.contracts) if contracts[name] is None]
     if not bad_kinds and not bad_contracts:
         return
-    from crew.contracts.source import Problems, SourceErrors, parse
+    from crew.contracts.files.source import Problems, SourceErrors, parse
 
     problems = Problems(crew.source, parse(text, file=crew.source))
     for spec in bad_kinds:
@@ -151,8 +151,8 @@ def _check_references(crew: "Crew", contracts: Mapping[str, Path | None], text: 
 
 
 def _load_contracts(paths: Sequence[Path], crew: "Crew", kinds: Mapping[str, "Kind"]) -> dict[str, "Contract"]:
-    from crew.contracts.contract_file import load_contract
-    from crew.contracts.source import SourceErrors
+    from crew.contracts.files.contract_file import load_contract
+    from crew.contracts.files.source import SourceErrors
 
     loaded: dict[str, Contract] = {}
     mistakes: list[str] = []

@@ -53,7 +53,7 @@ class RobotEvent(Message, frozen=True, kw_only=True):
     boot_id: str
     at_ns: int
     what: str
-    """`accepted`, `refused`, `succeeded`, `failed`, `cancelled`; or `stopped`, `released`, `orchestrator_lost`, `ready`."""
+    """`accepted`, `refused`, `succeeded`, `failed`, `cancelled`; or of the robot: `stopped`, `released`, `ready`..."""
     mission: str = ""
     sequence: int = 0
     code: str = ""

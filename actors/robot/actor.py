@@ -1,4 +1,4 @@
-"""One robot on the bus: it takes dispatches that pass its own check, runs them on its adapter, and tells what it sees."""
+"""One robot on the bus: takes dispatches that pass its own check, runs them on its adapter, tells what it sees."""
 
 import asyncio
 import contextlib

@@ -1,4 +1,4 @@
-"""Losing the orchestrator: its liveliness token goes, or its heartbeat falls silent. Then the declared behaviour runs."""
+"""Losing the orchestrator: its token goes, or its heartbeat falls silent. Then the declared behaviour runs."""
 
 from typing import TYPE_CHECKING
 

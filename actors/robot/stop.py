@@ -1,4 +1,4 @@
-"""Stop and reset of one robot. The stop acts in the bus's own thread, past the event loop; release needs a signature."""
+"""Stop and reset of one robot. The stop acts in the bus's own thread, past the event loop; release is signed."""
 
 import asyncio
 from typing import TYPE_CHECKING

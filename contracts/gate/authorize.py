@@ -20,7 +20,7 @@ from crew.contracts.snapshot import Point, Snapshot
 
 
 class Gate:
-    """The enforcing authorizer. It remembers containment findings by identity, since request and instance never change."""
+    """The enforcing authorizer. Containment findings are remembered by identity: request and instance never change."""
 
     def __init__(self) -> None:
         self._findings: dict[tuple[int, int, bool], tuple[Reading, Instance, Finding | None]] = {}

@@ -1,4 +1,4 @@
-"""How a mission ends early: running skills are cancelled, every role reaches its declared safe state, then it is over."""
+"""How a mission ends early: running skills are cancelled, every role reaches its declared safe state."""
 
 from collections.abc import Callable, Mapping
 from typing import Any

@@ -1,4 +1,4 @@
-"""Whether what was hoped for is seen: an effect, a role's safe state, a contract's completion. Pure; empty means yes."""
+"""Whether what was hoped for is seen: an effect, a safe state, completion. Pure; empty means yes."""
 
 from crew.contracts.gate.guard import Truth, evaluate
 from crew.contracts.gate.scope import scope_of

@@ -1,4 +1,4 @@
-"""Whole-plan validation: arguments, matching, containment, then the same `authorize` along the plan over predicted state."""
+"""Whole-plan validation: arguments, matching, then the gate's own `authorize` along the plan over predicted state."""
 
 import msgspec
 from msgspec.structs import replace

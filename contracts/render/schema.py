@@ -12,14 +12,14 @@ Schema = dict[str, Any]
 
 def contract_file_schema() -> Schema:
     """The shape of a contract file, for editors; the loader checks names and types beyond it."""
-    from crew.contracts.contract_model import ContractModel
+    from crew.contracts.files.contract_model import ContractModel
 
     return {"$schema": DIALECT, **_tidy(ContractModel.model_json_schema())}
 
 
 def crew_file_schema() -> Schema:
     """The shape of a crew file, for editors; the loader checks names and places beyond it."""
-    from crew.contracts.crew_model import CrewModel
+    from crew.contracts.files.crew_model import CrewModel
 
     return {"$schema": DIALECT, **_tidy(CrewModel.model_json_schema())}
 

@@ -4,6 +4,10 @@ from pathlib import Path
 
 import msgspec
 
+from crew.errors import UsageError
+
+MAX_SPEED = 1000.0
+
 
 class LaunchOptions(msgspec.Struct, frozen=True, kw_only=True):
     """Options of one run. `speed` 0 is lockstep: as fast as everybody can follow."""
@@ -20,3 +24,16 @@ class LaunchOptions(msgspec.Struct, frozen=True, kw_only=True):
     runs: Path = Path("runs")
     single_process: bool = False
     contracts: tuple[Path, ...] = ()
+
+
+def parse_speed(text: str) -> float:
+    """`max` as 0, or a positive multiple of real time. Raises UsageError."""
+    if text == "max":
+        return 0.0
+    try:
+        speed = float(text)
+    except ValueError:
+        speed = 0.0
+    if not 0.0 < speed <= MAX_SPEED:
+        raise UsageError(f"--speed {text!r} is no pace; give a number above 0 (1 is real time, at most 1000), or max")
+    return speed

@@ -5,10 +5,10 @@ from pathlib import Path
 
 import pytest
 
-from crew.contracts.contract_file import load_contract
-from crew.contracts.contract_model import ContractModel, NeverModel, SlotModel, StepModel
+from crew.contracts.files.contract_file import load_contract
+from crew.contracts.files.contract_model import ContractModel, NeverModel, SlotModel, StepModel
 from crew.contracts.site import Rules
-from crew.contracts.source import SourceErrors
+from crew.contracts.files.source import SourceErrors
 from crew.library import load_rules
 
 GUIDE = (Path(__file__).parents[3] / "docs" / "contracts.md").read_text(encoding="utf-8")

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from crew.contracts.crew_file import load_crew
+from crew.contracts.files.crew_file import load_crew
 from crew.contracts.plan import Zone
 from crew.contracts.site import Location, NamedZone, RobotSpec, SimSpec
 from tests.unit.contracts.carry import CREW_TEXT, crew_of, edited, mark, mistakes

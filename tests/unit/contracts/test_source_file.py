@@ -6,8 +6,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from crew.contracts.source import SourceErrors, locate, nearest_name, parse
-from crew.contracts.yaml_reader import MAX_BYTES, scalar
+from crew.contracts.files.source import SourceErrors, locate, nearest_name, parse
+from crew.contracts.files.yaml_reader import MAX_BYTES, scalar
 from tests.unit.contracts.carry import mistakes
 
 TEXT = """\

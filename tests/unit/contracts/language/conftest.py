@@ -5,8 +5,8 @@ from pathlib import Path
 import pytest
 
 import crew
-from crew.contracts.contract_file import load_contract
-from crew.contracts.crew_file import load_crew
+from crew.contracts.files.contract_file import load_contract
+from crew.contracts.files.crew_file import load_crew
 from crew.contracts.kinds.quadcopter import QUADCOPTER
 from crew.contracts.kinds.rover import ROVER
 from crew.contracts.language.lexicon import Lexicon, lexicon_of

@@ -2,8 +2,8 @@
 
 from typing import Annotated
 
-from crew.contracts.contract_file import load_contract
-from crew.contracts.crew_file import load_crew
+from crew.contracts.files.contract_file import load_contract
+from crew.contracts.files.crew_file import load_crew
 from crew.contracts.site import Rules
 from crew.contracts.skill import Entity, Fluent, Kind, Skill, SkillArgs, entity
 

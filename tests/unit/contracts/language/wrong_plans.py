@@ -3,6 +3,7 @@
 from collections.abc import Iterator, Mapping
 from itertools import product
 
+from crew.contracts.language.mention import MentionKind, Reading
 from crew.contracts.plan import ArgValue, Call, Instance, Plan, SlotValue, Spot, Zone
 from crew.contracts.site import Rules
 
@@ -37,10 +38,13 @@ def mutations(plan: Plan) -> Iterator[Plan]:
     yield Plan(plan.contract, (*steps, Call("tb3", "navigate_to", {"target": "base"})))
 
 
-def is_wrong(given: Instance, right: Instance, altitude_said: bool, asked: frozenset[str], rules: Rules) -> bool:
-    """Whether an instance does something else than the right one. Supporting steps may differ."""
+def is_wrong(given: Instance, right: Instance, reading: Reading, rules: Rules) -> bool:
+    """Whether an instance does something else than the right one. Supporting steps that nobody asked for may differ."""
     if given.contract != right.contract or given.roles != right.roles:
         return True
+    altitude_said = any(m.kind is MentionKind.ALTITUDE for m in reading.mentions)
+    own = {ref.step for a in reading.actions for ref in a.means if ref.contract == right.contract}
+    asked = {name for name in own if right.step(name) is not None} & {"takeoff", "land"}
     if _essential(given.slots, altitude_said) != _essential(right.slots, altitude_said):
         return True
     done, wanted = ({s.step for s in i.steps} for i in (given, right))

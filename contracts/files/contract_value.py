@@ -4,11 +4,11 @@ import math
 from collections.abc import Set as AbstractSet
 
 from crew.contracts.contract import Slot, SlotType
-from crew.contracts.contract_scope import PLACE_SLOTS, Scope, fields_of
-from crew.contracts.file_model import advice, show
+from crew.contracts.files.contract_scope import PLACE_SLOTS, Scope, fields_of
+from crew.contracts.files.file_model import advice, show
+from crew.contracts.files.source import Loc, Problems
 from crew.contracts.site import Crew
 from crew.contracts.skill import Entity, Param
-from crew.contracts.source import Loc, Problems
 
 STATUSES = ("ok", "absent", "ambiguous")
 """What the status of a run-time value may be."""

@@ -2,8 +2,8 @@
 
 from collections.abc import Iterator
 
-from crew.contracts.crew_model import AreaModel, CrewModel, ZoneModel
-from crew.contracts.source import Loc, Problems, locate
+from crew.contracts.files.crew_model import AreaModel, CrewModel, ZoneModel
+from crew.contracts.files.source import Loc, Problems, locate
 
 AREA = "operational_area"
 """The zone that is the whole area."""

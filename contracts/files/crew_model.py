@@ -4,7 +4,7 @@ from typing import Annotated, Any, ClassVar
 
 from pydantic import Field
 
-from crew.contracts.file_model import FileModel, Name, Text
+from crew.contracts.files.file_model import FileModel, Name, Text
 
 Range = Annotated[list[float], Field(min_length=2, max_length=2)]
 """Lowest and highest, metres."""

@@ -126,7 +126,7 @@ class Problems:
 
 def parse(text: str, *, file: str) -> Block:
     """The document as plain data with positions. Raises SourceErrors."""
-    from crew.contracts.yaml_reader import read  # ruamel.yaml is imported when a file is read, not before
+    from crew.contracts.files.yaml_reader import read  # ruamel.yaml is imported when a file is read, not before
 
     return read(text, file=file)
 

@@ -4,13 +4,13 @@ import re
 from collections.abc import Iterator
 from graphlib import CycleError, TopologicalSorter
 
-from crew.contracts.contract_guard import check_guard, check_guards
-from crew.contracts.contract_model import ContractModel, StepModel
-from crew.contracts.contract_role import check_roles
-from crew.contracts.contract_scope import PLAIN_TYPES, Scope
-from crew.contracts.contract_value import check_argument, check_default
+from crew.contracts.files.contract_guard import check_guard, check_guards
+from crew.contracts.files.contract_model import ContractModel, StepModel
+from crew.contracts.files.contract_role import check_roles
+from crew.contracts.files.contract_scope import PLAIN_TYPES, Scope
+from crew.contracts.files.contract_value import check_argument, check_default
+from crew.contracts.files.source import Loc, Problems
 from crew.contracts.skill import Skill
-from crew.contracts.source import Loc, Problems
 
 _PLACEHOLDER = re.compile(r"\{([^{}]*)\}")
 

@@ -4,7 +4,7 @@ from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import BeforeValidator, ConfigDict, Field
 
-from crew.contracts.file_model import (
+from crew.contracts.files.file_model import (
     Argument,
     ComparedArgument,
     ComparedLiteral,

@@ -19,7 +19,7 @@ from ruamel.yaml.events import (
 )
 from ruamel.yaml.reader import ReaderError
 
-from crew.contracts.source import Block, Items, Mark, SourceError, SourceErrors
+from crew.contracts.files.source import Block, Items, Mark, SourceError, SourceErrors
 
 MAX_BYTES = 1_000_000
 MAX_DEPTH = 32

@@ -1,11 +1,11 @@
 """Crew files: text to a `Crew` whose names are unambiguous and whose places lie in its area."""
 
-from crew.contracts.crew_check import AREA, check
-from crew.contracts.crew_model import AreaModel, CrewModel, OriginModel, ZoneModel
-from crew.contracts.file_model import validate
+from crew.contracts.files.crew_check import AREA, check
+from crew.contracts.files.crew_model import AreaModel, CrewModel, OriginModel, ZoneModel
+from crew.contracts.files.file_model import validate
+from crew.contracts.files.source import Problems, parse
 from crew.contracts.plan import Zone
 from crew.contracts.site import Crew, Location, NamedObject, NamedZone, RobotSpec, RuntimeValue, SimSpec
-from crew.contracts.source import Problems, parse
 
 
 def load_crew(text: str, *, source: str) -> Crew:

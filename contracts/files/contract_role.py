@@ -1,9 +1,9 @@
 """Roles of a contract: somebody in the crew can play each, all at once, and each can be brought to safety."""
 
-from crew.contracts.contract_model import ContractModel
-from crew.contracts.contract_scope import Scope, needed_skills
-from crew.contracts.contract_value import check_operand
-from crew.contracts.source import Loc, Problems, nearest_name
+from crew.contracts.files.contract_model import ContractModel
+from crew.contracts.files.contract_scope import Scope, needed_skills
+from crew.contracts.files.contract_value import check_operand
+from crew.contracts.files.source import Loc, Problems, nearest_name
 
 
 def check_roles(model: ContractModel, scope: Scope, problems: Problems) -> None:

@@ -1,10 +1,10 @@
 """Guards in a contract file: what the path names, and whether its value can ever be that."""
 
 from crew.contracts.contract import SlotType
-from crew.contracts.contract_model import GuardModel
-from crew.contracts.contract_scope import Scope
-from crew.contracts.contract_value import check_operand
-from crew.contracts.source import Loc, Problems
+from crew.contracts.files.contract_model import GuardModel
+from crew.contracts.files.contract_scope import Scope
+from crew.contracts.files.contract_value import check_operand
+from crew.contracts.files.source import Loc, Problems
 
 GIVEN = "given"
 """In an `if`: the slot is bound, whatever to."""

@@ -5,7 +5,7 @@ from collections.abc import Iterable, Mapping
 import msgspec
 
 from crew.contracts.contract import Slot, SlotType
-from crew.contracts.contract_model import ContractModel
+from crew.contracts.files.contract_model import ContractModel
 from crew.contracts.matching import FIELDS
 from crew.contracts.site import Crew, RobotSpec
 from crew.contracts.skill import Fluent, Kind, Skill

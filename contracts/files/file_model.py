@@ -18,7 +18,7 @@ from pydantic import (
 )
 from pydantic_core import ErrorDetails, PydanticCustomError
 
-from crew.contracts.source import LONGEST, Block, Items, Loc, Problems, nearest_name
+from crew.contracts.files.source import LONGEST, Block, Items, Loc, Problems, nearest_name
 
 Name = Annotated[str, StringConstraints(pattern="^[a-z][a-z0-9_]{0,39}$")]
 SOME_TEXT = r"\S"

@@ -3,13 +3,13 @@
 from collections.abc import Mapping
 
 from crew.contracts.contract import CallPattern, Condition, Contract, Never, Role, SafeState, Step
-from crew.contracts.contract_check import check
-from crew.contracts.contract_model import ContractModel, GuardModel, NeverModel, RoleModel, StepModel
-from crew.contracts.contract_scope import Scope, scope_of
-from crew.contracts.file_model import validate
+from crew.contracts.files.contract_check import check
+from crew.contracts.files.contract_model import ContractModel, GuardModel, NeverModel, RoleModel, StepModel
+from crew.contracts.files.contract_scope import Scope, scope_of
+from crew.contracts.files.file_model import validate
+from crew.contracts.files.source import Block, Loc, Problems, locate, parse
 from crew.contracts.site import Crew
 from crew.contracts.skill import Kind
-from crew.contracts.source import Block, Loc, Problems, locate, parse
 
 
 def load_contract(text: str, *, source: str, crew: Crew, kinds: Mapping[str, Kind]) -> Contract:

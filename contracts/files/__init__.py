@@ -1,0 +1,1 @@
+"""Reading what people write: contract and crew files, with errors that point at the node. Text in, structs out."""

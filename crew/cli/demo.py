@@ -1,0 +1,139 @@
+"""`crew demo`: bring a crew up, publish one request, wait for its end, bring the crew down."""
+
+import math
+import time
+from collections.abc import Mapping
+
+import msgspec
+
+from crew.bus.port import Bus
+from crew.cli.follow import follow_request
+from crew.cli.output import coloured, say, say_event, say_json
+from crew.cli.session import EXIT_CODES, home, run
+from crew.keys import Keys
+from crew.launch.live import UNSECURED, LiveCrew, live_crew
+from crew.launch.options import LaunchOptions
+from crew.mailbox import KeepLatest, Letter, letters
+from crew.messages import MissionEvent, PlannedStep, SimTruth
+
+
+class DemoStep(msgspec.Struct, frozen=True, kw_only=True):
+    """One step of the plan and how it ended."""
+
+    robot: str
+    skill: str
+    args: Mapping[str, str | float]
+    outcome: str
+    code: str | None
+
+
+class DemoResult(msgspec.Struct, frozen=True, kw_only=True):
+    """What `crew demo --json` prints; these fields stay."""
+
+    mission: str
+    outcome: str
+    code: str | None
+    question: str | None
+    contract: str | None
+    steps: tuple[DemoStep, ...]
+    goal_error_m: float | None
+    run: str
+    wall_s: float
+    sim_s: float
+    message: str
+
+
+def run_demo(options: LaunchOptions, request: str, as_json: bool) -> int:
+    """Exit code by the mission's outcome; a question counts as rejected, for there is nobody to answer it."""
+    return run(_demo(options, request, as_json))
+
+
+async def _demo(options: LaunchOptions, request: str, as_json: bool) -> int:
+    began = time.monotonic()
+    async with live_crew(options, home()) as crew:
+        if not as_json:
+            _introduce(crew, request, time.monotonic() - began)
+        truths: KeepLatest[Letter[SimTruth]] = KeepLatest(letters(SimTruth))
+        crew.bus.subscribe(crew.keys.sim_truth, truths)
+        last = await _follow(crew.bus, crew.keys, request, quiet=as_json)
+        truth = await _last_truth(truths)
+    result = _result(last, truth, crew, time.monotonic() - began)
+    if as_json:
+        say_json(result)
+    else:
+        _conclude(result)
+    return EXIT_CODES[result.outcome]
+
+
+async def _follow(bus: Bus, keys: Keys, request: str, *, quiet: bool) -> MissionEvent:
+    def listen(event: MissionEvent) -> None:
+        if not quiet:
+            say_event(event)
+
+    return await follow_request(bus, keys, request, listen, answer=lambda _: None)
+
+
+async def _last_truth(truths: KeepLatest[Letter[SimTruth]]) -> SimTruth | None:
+    """The newest truth of the simulation, published after the mission's end."""
+    truths.take()
+    await truths.changed()
+    found = truths.take()
+    return found[-1].message if found else None
+
+
+def _result(last: MissionEvent, truth: SimTruth | None, crew: LiveCrew, wall_s: float) -> DemoResult:
+    asked = last.question if last.what == "question" else None
+    steps = last.steps or ()
+    return DemoResult(
+        mission=last.mission,
+        outcome=last.outcome or "rejected",
+        code=last.code or ("unread_words" if asked else None),
+        question=asked,
+        contract=last.contract,
+        steps=tuple(DemoStep(robot=s.robot, skill=s.skill, args=s.args, outcome=s.outcome, code=s.code) for s in steps),
+        goal_error_m=None if truth is None else goal_error_m(steps, truth),
+        run=str(crew.run_folder),
+        wall_s=round(wall_s, 2),
+        sim_s=round(last.at_s, 2),
+        message=last.text,
+    )
+
+
+def goal_error_m(steps: tuple[PlannedStep, ...], truth: SimTruth) -> float | None:
+    """How far the robot of the last destination truly is from where it was sent: metres, horizontal."""
+    for step in reversed(steps):
+        pose = truth.poses.get(step.robot)
+        goal = _goal(step, truth)
+        if pose is not None and goal is not None:
+            return round(math.hypot(pose[0] - goal[0], pose[1] - goal[1]), 3)
+    return None
+
+
+def _goal(step: PlannedStep, truth: SimTruth) -> tuple[float, float] | None:
+    target = step.args.get("target")
+    if isinstance(target, str) and target in truth.targets:
+        x, y, _ = truth.targets[target]
+        return x, y
+    x_arg, y_arg = step.args.get("x"), step.args.get("y")
+    return (x_arg, y_arg) if isinstance(x_arg, float) and isinstance(y_arg, float) else None
+
+
+def _introduce(crew: LiveCrew, request: str, ready_s: float) -> None:
+    say(coloured(UNSECURED, "amber"))
+    robots = ", ".join(
+        f"{r.robot} ({r.kind}{': ' + r.unavailable if r.unavailable else ''})" for r in crew.status.robots
+    )
+    say(f"{crew.name} is up after {ready_s:.1f} s: {robots}")
+    say(f"request: {request}\n")
+
+
+def _conclude(result: DemoResult) -> None:
+    say()
+    if result.question:
+        say(f"a person would be asked: {result.question}")
+    if result.goal_error_m is not None:
+        say(f"distance to the true goal: {result.goal_error_m:.2f} m")
+    colour = "green" if result.outcome == "completed" else "red"
+    say(coloured(f"{result.outcome}{f' ({result.code})' if result.code else ''}", colour))
+    say(f"{result.sim_s:.1f} s of mission time in {result.wall_s:.1f} s; the run is in {result.run}")
+    say(f"check it: crew verify {result.run}")

@@ -1,0 +1,72 @@
+"""Publishes a request and follows its mission to the end."""
+
+import secrets
+import sys
+from collections.abc import Callable
+
+import msgspec
+
+from crew.bus.port import Bus, Qos
+from crew.clock import WALL
+from crew.errors import BusError
+from crew.keys import Keys
+from crew.mailbox import Events, Letter, letters
+from crew.messages import Answer, MissionEvent
+
+ANSWER_S = 10.0
+"""How long the gateway may take to take a request."""
+Listener = Callable[[MissionEvent], None]
+
+
+def event_box(bus: Bus, keys: Keys) -> Events[Letter[MissionEvent]]:
+    """Every mission event from now on."""
+    box: Events[Letter[MissionEvent]] = Events(letters(MissionEvent), capacity=4096, on_lost=_lost)
+    bus.subscribe(keys.mission_events, box)
+    return box
+
+
+async def follow_request(
+    bus: Bus, keys: Keys, text: str, listener: Listener, *, answer: Callable[[MissionEvent], bool | None]
+) -> MissionEvent:
+    """Publish a request on its key; return its last event.
+
+    `answer` is asked about a question: yes, no, or None, which returns the question itself as the last event.
+    Raises BusError if nobody takes the request.
+    """
+    request_id = secrets.token_hex(8)
+    box = event_box(bus, keys)
+    body = msgspec.json.encode({"text": text, "request_id": request_id})
+    bus.put(keys.request, (body, "application/json"), qos=Qos.EVENT)
+    heard = False
+    while True:
+        if not heard and not await WALL.race(box.changed(), ANSWER_S):
+            raise BusError(
+                f"nobody took the request within {ANSWER_S:g} s; are gateway and orchestrator up? (crew status)"
+            )
+        await box.changed()
+        for letter in box.take():
+            event = letter.message
+            if event.request_id != request_id:
+                continue
+            heard = True
+            listener(event)
+            if event.final:
+                return event
+            if event.what == "question" and event.token is not None:
+                said = answer(event)
+                if said is None:
+                    return event
+                reply = Answer(token=event.token, yes=said, by="operator")
+                bus.put(keys.mission_confirm(event.mission), reply, qos=Qos.EVENT)
+
+
+def ask_person(event: MissionEvent) -> bool | None:
+    """Put a mission's question to the person at the terminal; None if there is nobody."""
+    if not sys.stdin.isatty():
+        return None
+    print(f"\n{event.question}\n[y/N] ", end="", flush=True)
+    return sys.stdin.readline().strip().lower() in ("y", "yes")
+
+
+def _lost(count: int) -> None:
+    print(f"({count} events were lost: this terminal is too slow)", file=sys.stderr)

@@ -1,0 +1,260 @@
+"""The command line. Each command imports what it needs when it runs, so that `--help` stays quick."""
+
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+if TYPE_CHECKING:
+    from crew.launch.options import LaunchOptions
+
+app = typer.Typer(
+    name="crew",
+    help="Command a crew of robots in plain language. No language model ever moves one.",
+    no_args_is_help=True,
+    add_completion=False,
+    pretty_exceptions_enable=False,
+    rich_markup_mode=None,
+    context_settings={"help_option_names": ["-h", "--help"]},
+)
+contracts_app = typer.Typer(help="Workflow contracts.", no_args_is_help=True, rich_markup_mode=None)
+planner_app = typer.Typer(help="The mission planner.", no_args_is_help=True, rich_markup_mode=None)
+app.add_typer(contracts_app, name="contracts")
+app.add_typer(planner_app, name="planner")
+
+CrewName = Annotated[str, typer.Argument(metavar="[CREW]", help="A shipped crew's name, or the path of a crew file.")]
+CrewOption = Annotated[str, typer.Option("--crew", help="The crew to speak to; may be left out if one runs.")]
+AsJson = Annotated[bool, typer.Option("--json", help="Print JSON for machines.")]
+Map = Annotated[str | None, typer.Option("--map", help="The simulated site's map.")]
+Seed = Annotated[int | None, typer.Option(help="Seed of the simulation's noise.")]
+Speed = Annotated[str, typer.Option(help="Pace of the simulation: a multiple of real time, or max.")]
+Planner = Annotated[str, typer.Option(help="Who plans: embedded or script.")]
+Script = Annotated[str, typer.Option(help="JSON file with the plans of --planner script.")]
+Fault = Annotated[list[str] | None, typer.Option("--fault", help="Inject a fault; may be given several times.")]
+Runs = Annotated[Path, typer.Option(help="Folder that runs are written to.")]
+Single = Annotated[bool, typer.Option("--single-process", help="Everything in one process, for a debugger.")]
+REQUEST = "Search the area and send the rover to the victim"
+
+
+@app.command()
+def up(
+    crew: CrewName = "air_ground",
+    map_: Map = None,
+    seed: Seed = None,
+    speed: Speed = "1",
+    planner: Planner = "embedded",
+    script: Script = "",
+    fault: Fault = None,
+    port: Annotated[int, typer.Option(help="The router's TCP port on loopback; 0 takes a free one.")] = 7447,
+    runs: Runs = Path("runs"),
+    single_process: Single = False,
+) -> None:
+    """Bring a crew up and keep it up until Ctrl-C."""
+    from crew.cli.up import run_up
+
+    _end(run_up(_options(crew, map_, seed, speed, planner, script, fault, port, runs, single_process)))
+
+
+@app.command()
+def demo(
+    crew: CrewName = "air_ground",
+    map_: Map = None,
+    seed: Seed = None,
+    request: Annotated[str, typer.Option(help="What to ask of the crew.")] = REQUEST,
+    speed: Speed = "max",
+    planner: Planner = "embedded",
+    script: Script = "",
+    fault: Fault = None,
+    runs: Runs = Path("runs"),
+    single_process: Single = False,
+    as_json: AsJson = False,
+) -> None:
+    """Bring a crew up, carry out one request, bring it down. Never waits for a person."""
+    from crew.cli.demo import run_demo
+
+    _end(run_demo(_options(crew, map_, seed, speed, planner, script, fault, 0, runs, single_process), request, as_json))
+
+
+@app.command()
+def request(
+    text: Annotated[str, typer.Argument(help="What the crew shall do, in plain words.")],
+    crew: CrewOption = "",
+    as_json: AsJson = False,
+) -> None:
+    """Ask a running crew for something, and follow it to its end."""
+    from crew.cli.talk import run_request
+
+    _end(run_request(text, crew, as_json))
+
+
+@app.command()
+def status(crew: CrewOption = "", as_json: AsJson = False) -> None:
+    """What a running crew is doing, and who of it is alive."""
+    from crew.cli.status import run_status
+
+    _end(run_status(crew, as_json))
+
+
+@app.command()
+def watch(crew: CrewOption = "", as_json: AsJson = False) -> None:
+    """Follow every mission of a running crew until Ctrl-C."""
+    from crew.cli.talk import run_watch
+
+    _end(run_watch(crew, as_json))
+
+
+@app.command()
+def cancel(
+    mission: Annotated[str, typer.Argument(help="The mission's id (crew status).")], crew: CrewOption = ""
+) -> None:
+    """End a mission; its robots reach their safe states."""
+    from crew.cli.talk import run_cancel
+
+    _end(run_cancel(mission, crew))
+
+
+@app.command()
+def confirm(
+    mission: Annotated[str, typer.Argument(help="The mission that asks (crew status).")],
+    no: Annotated[bool, typer.Option("--no", help="Decline instead.")] = False,
+    crew: CrewOption = "",
+) -> None:
+    """Answer a mission's question."""
+    from crew.cli.talk import run_confirm
+
+    _end(run_confirm(mission, not no, crew))
+
+
+@app.command()
+def stop(
+    crew: CrewOption = "",
+    reason: Annotated[str, typer.Option(help="Why, for the journal.")] = "",
+    as_json: AsJson = False,
+) -> None:
+    """Stop every robot now, and keep it stopped until a reset."""
+    from crew.cli.stopping import run_stop
+
+    _end(run_stop(crew, reason, as_json))
+
+
+@app.command()
+def reset(
+    robot: Annotated[list[str] | None, typer.Argument(help="Robots to release; all of them if none is named.")] = None,
+    crew: CrewOption = "",
+) -> None:
+    """Release stopped robots. Signed with the operator's key."""
+    from crew.cli.stopping import run_reset
+
+    _end(run_reset(tuple(robot or ()), crew))
+
+
+@app.command("runs")
+def list_runs(runs: Runs = Path("runs"), as_json: AsJson = False) -> None:
+    """List the runs that were recorded."""
+    from crew.cli.runs import run_runs
+
+    _end(run_runs(runs, as_json))
+
+
+@app.command()
+def verify(
+    run: Annotated[Path, typer.Argument(help="A run's folder, or `last`.")],
+    runs: Runs = Path("runs"),
+    key: Annotated[Path | None, typer.Option(help="The orchestrator's public key, if not this machine's.")] = None,
+    as_json: AsJson = False,
+) -> None:
+    """Check a run's chain and signatures, and decide every decision again."""
+    from crew.cli.runs import run_verify
+
+    _end(run_verify(run, runs, key, as_json))
+
+
+@app.command()
+def skills(crew: CrewName = "air_ground", as_json: AsJson = False) -> None:
+    """What each robot of a crew can do."""
+    from crew.cli.contracts import run_skills
+
+    _end(run_skills(crew, as_json))
+
+
+@contracts_app.command("show")
+def contracts_show(
+    name: Annotated[str, typer.Argument(help="A contract of the crew; all of them if left out.")] = "",
+    crew: Annotated[str, typer.Option("--crew", help="Crew whose contracts are shown.")] = "air_ground",
+    form: Annotated[str, typer.Option("--as", help="prose, mermaid or json.")] = "prose",
+) -> None:
+    """Show contracts as a planner reads them, as a diagram, or as data."""
+    from crew.cli.contracts import run_show
+
+    _end(run_show(name, crew, form))
+
+
+@contracts_app.command("schema")
+def contracts_schema() -> None:
+    """Print the JSON Schema of a contract file, for editors."""
+    from crew.cli.contracts import run_schema
+
+    _end(run_schema())
+
+
+@planner_app.command("try")
+def planner_try(
+    text: Annotated[str, typer.Argument(help="The request.")],
+    crew: Annotated[str, typer.Option("--crew", help="Crew to plan for.")] = "air_ground",
+    planner: Planner = "embedded",
+    script: Script = "",
+    state: Annotated[
+        list[str] | None, typer.Option("--state", help="Assumed state, such as iris.airborne=true.")
+    ] = None,
+    as_json: AsJson = False,
+) -> None:
+    """Plan a request and judge the plan, without any robot and without any network."""
+    from crew.cli.planner import run_try
+
+    _end(run_try(text, crew, planner, script, tuple(state or ()), as_json))
+
+
+def _options(
+    crew: str,
+    map_: str | None,
+    seed: int | None,
+    speed: str,
+    planner: str,
+    script: str,
+    fault: list[str] | None,
+    port: int,
+    runs: Path,
+    single_process: bool,
+) -> "LaunchOptions":
+    from crew.launch.options import LaunchOptions, parse_speed
+
+    return LaunchOptions(
+        crew=crew,
+        map=map_,
+        seed=seed,
+        faults=tuple(fault or ()),
+        speed=parse_speed(speed),
+        planner=planner,
+        script=script,
+        port=port,
+        runs=runs,
+        single_process=single_process,
+    )
+
+
+def _end(code: int) -> None:
+    raise typer.Exit(code)
+
+
+def main() -> None:
+    """Run the command line. A person's mistake gets a sentence and exit code 2, never a traceback."""
+    from crew.errors import CrewError
+
+    try:
+        app()
+    except CrewError as error:
+        print(f"crew: {error}", file=sys.stderr)
+        sys.exit(error.exit_code)
+    except KeyboardInterrupt:
+        sys.exit(130)

@@ -1,0 +1,191 @@
+"""`crew planner try`: one request planned and judged, without any robot and without any network."""
+
+from collections.abc import Mapping
+from typing import Any
+
+import msgspec
+
+from crew.actors.planner.process import make_backend
+from crew.cli.output import coloured, plan_lines, say, say_json
+from crew.contracts.gate.authorize import Gate
+from crew.contracts.language.lexicon import build_lexicon
+from crew.contracts.language.mention import Mention, Reading
+from crew.contracts.language.reading import read_request
+from crew.contracts.mission.provenance import sources
+from crew.contracts.mission.validation import Validation, validate
+from crew.contracts.mission_state import MissionState
+from crew.contracts.plan import Plan
+from crew.contracts.site import Rules
+from crew.contracts.snapshot import Point, RobotState, Snapshot, Stamped, StampedValue, ValueReading
+from crew.errors import UsageError, nearest
+from crew.library import load_rules
+from crew.messages import PlannedStep, PlannerAsk
+
+NOW_NS = 1_000_000_000
+
+
+class TryResult(msgspec.Struct, frozen=True, kw_only=True):
+    """What `crew planner try --json` prints; these fields stay."""
+
+    proposal: Mapping[str, Any] | None
+    reason: str
+    mentions: list[Mapping[str, Any]]
+    unread: list[str]
+    verdict: Mapping[str, Any]
+
+
+def run_try(text: str, crew: str, planner: str, script: str, state: tuple[str, ...], as_json: bool) -> int:
+    """0 if the plan is accepted, 3 if it is refused or a person would be asked."""
+    rules = load_rules(crew)
+    backend = make_backend(planner, rules, script)
+    world, near = assumed(state, rules)
+    reading = read_request(text, build_lexicon(rules))
+    ask = PlannerAsk(
+        mission="try",
+        attempt=0,
+        request=text,
+        airborne={n: bool(r.fluents["airborne"].value) for n, r in world.robots.items() if "airborne" in r.fluents},
+        values={n: v.reading.status for n, v in world.values.items()},
+        requester_near=near,
+    )
+    proposal = backend.propose(ask)
+    mission = MissionState(id="try", request=text, reading=reading)
+    verdict = None if proposal.plan is None else validate(proposal.plan, mission, world, rules, NOW_NS, Gate())
+    accepted = verdict is not None and verdict.refusal is None and verdict.question is None
+    if as_json:
+        say_json(_result(proposal.plan, proposal.reason, reading, verdict))
+    else:
+        _say(proposal.plan, proposal.reason, reading, verdict, rules)
+    return 0 if accepted else 3
+
+
+def assumed(assignments: tuple[str, ...], rules: Rules) -> tuple[Snapshot, bool | None]:
+    """A world from `robot.fluent=value`, `<value>.status=ok` and `requester.near=true`. Raises UsageError."""
+    robots = {r.name: _robot(r.name, rules) for r in rules.crew.robots}
+    values: dict[str, StampedValue] = {}
+    near: bool | None = None
+    for text in assignments:
+        path, equals, written = text.partition("=")
+        head, _, attribute = path.partition(".")
+        if not equals or not attribute:
+            raise UsageError(f"--state {text!r} is no assignment; write robot.fluent=value, such as iris.airborne=true")
+        if head in robots:
+            robots[head] = _with_fluent(robots[head], attribute, _parsed(written), rules)
+        elif path == "requester.near":
+            near = written == "true"
+        elif rules.crew.value(head) is not None and attribute == "status":
+            values[head] = _value(head, written, rules)
+        else:
+            known = [*robots, *(v.name for v in rules.crew.values)]
+            raise UsageError(f"--state {text!r} names nothing of this crew{nearest(head, known)}")
+    return Snapshot(robots=robots, values=values), near
+
+
+def _robot(name: str, rules: Rules) -> RobotState:
+    """A robot that stands still on the ground."""
+    kind = rules.kind_of(name)
+    assert kind is not None
+    fluents = {f.name: Stamped(False, NOW_NS, NOW_NS) for f in kind.fluents if f.domain == "bool"}
+    return RobotState(name=name, kind_digest=kind.digest, fluents=fluents)
+
+
+def _with_fluent(robot: RobotState, name: str, value: bool | float | str, rules: Rules) -> RobotState:
+    kind = rules.kind_of(robot.name)
+    assert kind is not None
+    if kind.fluent(name) is None:
+        raise UsageError(f"{robot.name} has no fluent {name!r}{nearest(name, [f.name for f in kind.fluents])}")
+    return msgspec.structs.replace(robot, fluents={**robot.fluents, name: Stamped(value, NOW_NS, NOW_NS)})
+
+
+def _value(name: str, status: str, rules: Rules) -> StampedValue:
+    area = rules.crew.area
+    centre = Point((area.x_min + area.x_max) / 2, (area.y_min + area.y_max) / 2)
+    source = min(rules.publishers_of(name), default="")
+    position = centre if status == "ok" else None
+    return StampedValue(ValueReading(name=name, status=status, position=position, stamp_ns=NOW_NS), source, NOW_NS)
+
+
+def _parsed(text: str) -> bool | float | str:
+    if text in ("true", "false"):
+        return text == "true"
+    try:
+        return float(text)
+    except ValueError:
+        return text
+
+
+def _result(plan: Plan | None, reason: str, reading: Reading, verdict: Validation | None) -> TryResult:
+    return TryResult(
+        proposal=None if plan is None else msgspec.to_builtins(plan),
+        reason=reason,
+        mentions=[_mention(m) for m in reading.mentions],
+        unread=[u.word for u in reading.unread],
+        verdict=_verdict(verdict, reason),
+    )
+
+
+def _mention(mention: Mention) -> Mapping[str, Any]:
+    values = [msgspec.to_builtins(v) for v in mention.values]
+    return {
+        "span": mention.span,
+        "text": mention.text,
+        "kind": str(mention.kind),
+        "polarity": "positive" if mention.positive else "negative",
+        "direction": str(mention.direction),
+        "value": None if not values else values[0] if len(values) == 1 else values,
+    }
+
+
+def _verdict(verdict: Validation | None, reason: str) -> Mapping[str, Any]:
+    if verdict is None:
+        return {"accepted": False, "code": None, "message": f"no plan: {reason}", "question": None}
+    if verdict.refusal is not None:
+        return {
+            "accepted": False,
+            "code": str(verdict.refusal.code),
+            "message": verdict.refusal.message,
+            "field": verdict.refusal.field,
+            "question": None,
+        }
+    if verdict.question is not None:
+        code = "unread_words" if verdict.question.unread else "approval_missing"
+        return {"accepted": False, "code": code, "message": "a person is asked", "question": verdict.question.text}
+    return {"accepted": True, "code": None, "message": "accepted", "question": None}
+
+
+def _say(plan: Plan | None, reason: str, reading: Reading, verdict: Validation | None, rules: Rules) -> None:
+    say("the request as it was read:")
+    for mention in reading.mentions:
+        sign = "" if mention.positive else "not "
+        direction = f" ({mention.direction})" if mention.direction != "none" else ""
+        say(f"  {mention.text!r:28} {sign}{mention.kind}: {mention.name}{direction}")
+    for unread in reading.unread:
+        say(f"  {unread.word!r:28} not understood")
+    for doubt in reading.ambiguous:
+        say(f"  {reading.text[slice(*doubt.span)]!r:28} ambiguous: {doubt.why}")
+    if plan is None:
+        say(f"no plan: {reason}")
+    else:
+        say(f"the plan: {plan.contract}")
+        for line in plan_lines(_planned(plan, reading, verdict, rules)):
+            say(f"  {line}")
+    result = _verdict(verdict, reason)
+    colour = "green" if result["accepted"] else "amber" if result["question"] else "red"
+    code = f"{result['code']}: " if result["code"] else ""
+    say(coloured(f"verdict: {code}{result['question'] or result['message']}", colour))
+
+
+def _planned(plan: Plan, reading: Reading, verdict: Validation | None, rules: Rules) -> list[PlannedStep]:
+    instance = None if verdict is None else verdict.instance
+    if instance is None:
+        return [PlannedStep(step="?", robot=c.robot, skill=c.skill, args=c.args) for c in plan.steps]
+    return [
+        PlannedStep(
+            step=s.step,
+            robot=s.call.robot,
+            skill=s.call.skill,
+            args=s.call.args,
+            sources=sources(s, instance, reading, rules),
+        )
+        for s in instance.steps
+    ]

@@ -1,0 +1,78 @@
+"""`crew up`: a crew until Ctrl-C, with its missions and its losses on the terminal."""
+
+import asyncio
+import signal
+import time
+
+from crew.cli.follow import event_box
+from crew.cli.output import coloured, say, say_event
+from crew.cli.session import home
+from crew.launch.live import UNSECURED, LiveCrew, live_crew
+from crew.launch.options import LaunchOptions
+
+LOSS = {
+    "orchestrator": "robots do what their skills declare for a lost orchestrator; missions are over",
+    "router": "the bus is lost; robots do what their skills declare",
+    "simulation": "the simulated robots are gone; missions halt",
+    "planner": "no new mission can be planned",
+    "gateway": "no new request can be taken",
+}
+
+
+def run_up(options: LaunchOptions) -> int:
+    """0 after Ctrl-C, 1 if a process died meanwhile."""
+    return asyncio.run(_up(options))
+
+
+async def _up(options: LaunchOptions) -> int:
+    task = asyncio.current_task()
+    assert task is not None
+    loop = asyncio.get_running_loop()
+    for number in (signal.SIGINT, signal.SIGTERM):
+        loop.add_signal_handler(number, task.cancel)
+    began = time.monotonic()
+    losses = Losses()
+    try:
+        async with live_crew(options, home()) as crew:
+            _introduce(crew, time.monotonic() - began)
+            async with asyncio.TaskGroup() as group:
+                group.create_task(_show_missions(crew))
+                group.create_task(losses.watch(crew))
+    except asyncio.CancelledError:
+        say("\nthe crew is down")
+    return 1 if losses.count else 0
+
+
+class Losses:
+    """Processes that ended without being asked."""
+
+    def __init__(self) -> None:
+        self.count = 0
+
+    async def watch(self, crew: LiveCrew) -> None:
+        """Say who died and what that means, until cancelled."""
+        while True:
+            ended = await crew.exits.get()
+            self.count += 1
+            how = f"signal {-ended.code}" if ended.code < 0 else f"code {ended.code}"
+            meaning = LOSS.get(ended.name, "the robot is unavailable")
+            say(coloured(f"{ended.name} died ({how}): {meaning}", "red"))
+            if ended.said:
+                say(f"  it said: {ended.said.splitlines()[-1]}")
+            say("  end the crew with Ctrl-C and bring it up again")
+
+
+async def _show_missions(crew: LiveCrew) -> None:
+    async for letter in event_box(crew.bus, crew.keys):
+        say_event(letter.message, with_mission=True)
+
+
+def _introduce(crew: LiveCrew, ready_s: float) -> None:
+    say(coloured(UNSECURED, "amber"))
+    say(f"{crew.name} is up after {ready_s:.1f} s")
+    for robot in crew.status.robots:
+        state = coloured(f"not available: {robot.unavailable}", "red") if robot.unavailable else "available"
+        say(f"  {robot.robot:10} {robot.kind:12} {state}")
+    say(f"  router     {crew.router}")
+    say(f"  run        {crew.run_folder}")
+    say('ask it for something: crew request "..."; stop everything: crew stop; end: Ctrl-C')

@@ -1,0 +1,174 @@
+"""Verifies a run from its journal alone: the chain, the signatures, and every decision decided once more."""
+
+from collections import Counter
+from pathlib import Path
+
+import msgspec
+
+from crew.contracts.gate.authorize import Gate
+from crew.contracts.mission.judgement import judge
+from crew.contracts.mission.machine import step
+from crew.contracts.mission.validation import validate
+from crew.contracts.mission_state import MissionState
+from crew.contracts.plan import digest
+from crew.contracts.site import Rules
+from crew.errors import JournalError, UsageError
+from crew.home import Home
+from crew.journal_reader import Record as Row
+from crew.journal_reader import check_chain, read_records
+from crew.packed import unpack
+from crew.records import (
+    RECORDS,
+    DecisionRecord,
+    EventRecord,
+    IntentRecord,
+    JudgementRecord,
+    MissionRecord,
+    Record,
+    RunRecord,
+    ValidationRecord,
+)
+from crew.signing import load_public_key
+
+JOURNAL = "journal.db"
+
+
+class VerifyReport(msgspec.Struct, frozen=True, kw_only=True):
+    """What was found. `problems` empty means that chain, signatures and every decision hold."""
+
+    run: str
+    records: int
+    replayed: dict[str, int]
+    problems: tuple[str, ...]
+    notes: tuple[str, ...] = ()
+
+    @property
+    def holds(self) -> bool:
+        return not self.problems
+
+
+def verify_run(folder: Path, home: Home, *, key_file: Path | None = None) -> VerifyReport:
+    """Check a run's journal against its keys, its outside head and the code. Raises UsageError if there is no run."""
+    path = folder / JOURNAL
+    if not path.is_file():
+        raise UsageError(f"{folder} holds no {JOURNAL}; name a folder of a run (crew runs)")
+    public = load_public_key(key_file or home.keys / "orchestrator.pub")
+    outside = home.head(folder.name)
+    chain = check_chain(path, public, outside if outside.is_file() else None)
+    problems = list(chain.problems)
+    if not outside.is_file():
+        problems.append(f"no head of run {folder.name} outside its folder ({outside}): a cut tail could not be noticed")
+    replay = Replay()
+    try:
+        for row in read_records(path):
+            replay.take(row)
+    except JournalError as error:
+        problems.append(str(error))
+    return VerifyReport(
+        run=folder.name,
+        records=chain.records,
+        replayed=dict(replay.counts),
+        problems=(*problems, *replay.problems),
+        notes=tuple(chain.notes),
+    )
+
+
+class Replay:
+    """Decides a journal's decisions again, from nothing but its records and the installed code."""
+
+    def __init__(self) -> None:
+        self.counts: Counter[str] = Counter()
+        self.problems: list[str] = []
+        self._rules: Rules | None = None
+        self._states: dict[str, MissionState] = {}
+        self._allowed: set[tuple[str, str]] = set()
+        self._gate = Gate()
+
+    def take(self, row: Row) -> None:
+        """Replay one row; what does not come out the same is a problem, named by its record."""
+        record_type = RECORDS.get(row.kind)
+        if record_type is None:
+            self._problem(row, f"unknown kind {row.kind!r}; it is from another version")
+            return
+        try:
+            record: Record = msgspec.msgpack.decode(row.body, type=record_type)
+        except msgspec.MsgspecError as error:
+            self._problem(row, f"its body can't be read: {error}")
+            return
+        self.counts[row.kind] += 1
+        if isinstance(record, RunRecord):
+            self._begin(row, record)
+        elif self._rules is None:
+            self._problem(row, "comes before the run's own record")
+        else:
+            self._replay(row, record, self._rules)
+
+    def _begin(self, row: Row, record: RunRecord) -> None:
+        try:
+            self._rules = unpack(record.rules)
+        except UsageError as error:
+            self._problem(row, str(error))
+            return
+        if self._rules.digest() != record.rules_digest:
+            self._problem(row, "the rules do not have the digest that was recorded")
+
+    def _replay(self, row: Row, record: Record, rules: Rules) -> None:
+        match record:
+            case MissionRecord():
+                self._states[record.state.id] = record.state
+            case EventRecord():
+                self._event(row, record, rules)
+            case ValidationRecord():
+                if (state := self._state(row, record.mission, record.state_digest)) is not None:
+                    again = validate(record.plan, state, record.world, rules, record.now_ns, self._gate)
+                    self._same(row, "validation", again, record.validation)
+            case DecisionRecord():
+                self._decision(row, record, rules)
+            case JudgementRecord():
+                if (state := self._state(row, record.mission, record.state_digest)) is not None:
+                    missing = judge(record.what, state, record.world, rules, record.now_ns)
+                    self._same(row, f"judgement of {record.what}", missing, record.missing)
+            case IntentRecord():
+                dispatch = record.dispatch
+                if (dispatch.mission, dispatch.step) not in self._allowed:
+                    self._problem(row, f"{dispatch.robot}.{dispatch.skill} was sent without a decision that allows it")
+                self._allowed.discard((dispatch.mission, dispatch.step))
+
+    def _event(self, row: Row, record: EventRecord, rules: Rules) -> None:
+        state = self._states.get(record.mission)
+        if state is None:
+            self._problem(row, f"an event of mission {record.mission}, which never began")
+            return
+        state, _ = step(state, record.event, rules.contracts)
+        self._states[record.mission] = state
+        if digest(state) != record.state_digest:
+            self._problem(
+                row, f"mission {record.mission} comes out in another state after {type(record.event).__name__}"
+            )
+
+    def _decision(self, row: Row, record: DecisionRecord, rules: Rules) -> None:
+        decision = record.decision
+        state = self._state(row, decision.mission, record.state_digest)
+        if state is None:
+            return
+        again = self._gate.authorize(decision.call, state, record.world, rules, decision.at_ns, decision.purpose)
+        self._same(row, f"decision on {decision.call}", again, decision)
+        if decision.allowed:
+            self._allowed.add((decision.mission, decision.step))
+
+    def _state(self, row: Row, mission: str, state_digest: str) -> MissionState | None:
+        state = self._states.get(mission)
+        if state is None:
+            self._problem(row, f"it speaks of mission {mission}, which never began")
+        elif digest(state) != state_digest:
+            self._problem(row, f"mission {mission} was in another state when this was decided")
+        return state
+
+    def _same(self, row: Row, what: str, again: object, recorded: object) -> None:
+        if msgspec.msgpack.encode(again, order="deterministic") != msgspec.msgpack.encode(
+            recorded, order="deterministic"
+        ):
+            self._problem(row, f"the {what} comes out differently: recorded {recorded}, now {again}")
+
+    def _problem(self, row: Row, text: str) -> None:
+        self.problems.append(f"record {row.seq} ({row.kind}): {text}")
