@@ -34,6 +34,9 @@ class Binding(msgspec.Struct, frozen=True):
 
 def match(plan: Plan, rules: Rules) -> Instance | Refusal:
     """The plan as an instance of its contract, or why it is none."""
+    if not 0 < len(plan.steps) <= MAX_STEPS:
+        message = f"a plan has 1 to {MAX_STEPS} steps, this one {len(plan.steps)}"
+        return Refusal(code=Code.MALFORMED_PLAN, message=message, field="steps", observed=str(len(plan.steps)))
     contract = rules.contracts.get(plan.contract)
     if contract is None:
         known = ", ".join(sorted(rules.contracts)) or "none"
@@ -41,9 +44,6 @@ def match(plan: Plan, rules: Rules) -> Instance | Refusal:
         return Refusal(
             code=Code.UNKNOWN_CONTRACT, message=message, field="contract", observed=plan.contract, allowed=known
         )
-    if not 0 < len(plan.steps) <= MAX_STEPS:
-        message = f"a plan has 1 to {MAX_STEPS} steps, this one {len(plan.steps)}"
-        return Refusal(code=Code.MALFORMED_PLAN, message=message, field="steps", observed=str(len(plan.steps)))
     return _foreign_call(plan, contract) or _assign(plan, contract, rules)
 
 

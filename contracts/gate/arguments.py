@@ -30,9 +30,10 @@ def check_arguments(call: Call, skill: Skill, rules: Rules) -> Refusal | None:
         _missing(call, skill)
         or _unknown(call, skill)
         or _first(_bad_value(call, p) for p in skill.params)
-        or _first(_unknown_name(call, p, rules) for p in skill.params)
-        or _first(_out_of_bounds(call, p, rules) for p in skill.params)
         or _swapped(call, skill)
+        or _first(_unknown_name(call, p, rules) for p in skill.params if p.entity is not Entity.OBJECT)
+        or _first(_unknown_name(call, p, rules) for p in skill.params if p.entity is Entity.OBJECT)
+        or _first(_out_of_bounds(call, p, rules) for p in skill.params)
     )
 
 
@@ -74,9 +75,18 @@ def _bad_value(call: Call, param: Param) -> Refusal | None:
         )
     if isinstance(value, bool) or not isinstance(value, int | float):
         return _argument(Code.BAD_ARGUMENT, call, param.name, repr(value), "a number", "is not a number")
-    if not math.isfinite(value):
-        return _argument(Code.BAD_ARGUMENT, call, param.name, show(value), "a finite number", "is not finite")
+    if not _is_finite(value):
+        observed = show(value) if isinstance(value, float) else "a huge number"
+        return _argument(Code.BAD_ARGUMENT, call, param.name, observed, "a finite number", "is not finite")
     return None
+
+
+def _is_finite(value: float) -> bool:
+    """Whether a number is an ordinary one; an integer beyond any float is not."""
+    try:
+        return math.isfinite(value)
+    except OverflowError:
+        return False
 
 
 def _unknown_name(call: Call, param: Param, rules: Rules) -> Refusal | None:
