@@ -54,7 +54,8 @@ class Scanner:
     def _light(self, at: int) -> Piece | None:
         """`start searching`, `do a search`, `go and find`: the verb that follows is the one that is meant."""
         entry = self._special(Role.LIGHT, at)
-        if entry is None or (at > 0 and self.tokens[at - 1].norm in _NOT_BEFORE_VERB):
+        placed = at > 0 and self.tokens[at - 1].norm in _NOT_BEFORE_VERB
+        if entry is None or (placed and self._name_is_place(at)):
             return None
         end = at + len(entry.words)
         verb = self._past(end, ("out", "ahead"))

@@ -124,7 +124,7 @@ ROLE_ORDER: tuple[Role, ...] = (Role.LIGHT, Role.CAUSE, Role.BE)
 
 REQUESTER = "requester"
 """The run-time value that the speaker's own words name."""
-SELF_WORDS: tuple[str, ...] = ("me", "here", "myself")
+SELF_WORDS: tuple[str, ...] = ("me", "here", "myself", "us")
 
 ROBOT_WORDS: tuple[str, ...] = ("robot", "vehicle", "machine")
 """Class words that every crew has: any of its robots."""

@@ -11,7 +11,7 @@ from crew.contracts.site import Rules
 from tests.unit.contracts.language.corpus import Request, corpus, judge, mistake
 from tests.unit.contracts.language.wrong_plans import is_wrong, mutations, pool
 
-HALVES = ("first", "second", "third")
+HALVES = ("first", "second", "third", "fourth")
 ALL = [request for half in HALVES for request in corpus(half)]
 
 

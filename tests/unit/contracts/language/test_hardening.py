@@ -18,8 +18,9 @@ VOCABULARY = (
 
 
 def check(reading: Reading) -> None:
-    for item in (*reading.mentions, *reading.unread, *reading.ambiguous):
-        assert 0 <= item.span[0] < item.span[1] <= max(len(reading.text), item.span[1])
+    spans = [i.span for i in reading.mentions] + [i.span for i in reading.unread] + [i.span for i in reading.ambiguous]
+    for start, end in spans:
+        assert 0 <= start < end <= len(reading.text)
     for mention in reading.mentions:
         assert reading.text[slice(*mention.span)] == mention.text
         assert mention.governor is None or mention.governor < len(reading.mentions)
