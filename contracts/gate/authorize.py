@@ -20,10 +20,13 @@ from crew.contracts.snapshot import Point, Snapshot
 
 
 class Gate:
-    """The enforcing authorizer. Containment findings are remembered by identity: request and instance never change."""
+    """The enforcing authorizer. Containment findings are remembered by identity: request, instance, rules never change.
+
+    What it remembers it also holds on to, so that an identity is never another object's.
+    """
 
     def __init__(self) -> None:
-        self._findings: dict[tuple[int, int, bool], tuple[Reading, Instance, Finding | None]] = {}
+        self._findings: dict[tuple[int, int, int, bool], tuple[Reading, Instance, Rules, Finding | None]] = {}
 
     def authorize(
         self, call: Call, mission: MissionState, world: Snapshot, rules: Rules, now_ns: int, purpose: Purpose
@@ -52,14 +55,14 @@ class Gate:
 
     def _check_containment(self, mission: MissionState, rules: Rules) -> Refusal | None:
         assert mission.instance is not None
-        key = (id(mission.reading), id(mission.instance), mission.confirmed)
+        key = (id(mission.reading), id(mission.instance), id(rules), mission.confirmed)
         known = self._findings.get(key)
-        if known is None or known[0] is not mission.reading or known[1] is not mission.instance:
+        if known is None:
             finding = check_containment(mission.reading, mission.instance, rules, confirmed=mission.confirmed)
             if len(self._findings) > 64:
                 self._findings.clear()
-            known = self._findings[key] = (mission.reading, mission.instance, finding)
-        return None if known[2] is None else finding_refusal(known[2])
+            known = self._findings[key] = (mission.reading, mission.instance, rules, finding)
+        return None if known[3] is None else finding_refusal(known[3])
 
 
 def finding_refusal(finding: Finding) -> Refusal:

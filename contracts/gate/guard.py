@@ -10,6 +10,7 @@ from crew.contracts.contract import Condition
 from crew.contracts.plan import SlotValue, Spot
 from crew.contracts.refusal import show
 from crew.contracts.site import Rules
+from crew.contracts.skill import Published
 from crew.contracts.snapshot import FluentValue, Point, Snapshot
 
 SECOND_NS = 1_000_000_000
@@ -85,13 +86,18 @@ def _compare(path: str, wanted: FluentValue, negated: bool, scope: Scope) -> Ver
     if head in scope.roles and attribute:
         verdict = _robot_fluent(scope.roles[head], attribute, wanted, scope)
     else:
-        bound = scope.slots.get(head)
-        name = bound if isinstance(bound, str) else head
-        verdict = _value(name, attribute, wanted, scope)
+        verdict = _value(value_name(path, scope), attribute, wanted, scope)
     if not negated or verdict.truth in (Truth.ABSENT, Truth.STALE):
         return verdict
     flipped = Truth.FAILS if verdict.truth is Truth.HOLDS else Truth.HOLDS
     return msgspec.structs.replace(verdict, truth=flipped)
+
+
+def value_name(path: str, scope: Scope) -> str:
+    """The run-time value that a path speaks of: by its own name, or as a slot is bound."""
+    head = path.partition(".")[0]
+    bound = scope.slots.get(head)
+    return bound if isinstance(bound, str) else head
 
 
 def _robot_fluent(robot: str, name: str, wanted: FluentValue, scope: Scope) -> Verdict:
@@ -111,8 +117,19 @@ def _value(name: str, attribute: str, wanted: FluentValue, scope: Scope) -> Verd
     stamped = scope.world.values.get(name)
     if stamped is None or attribute not in ("", "status"):
         return Verdict(Truth.ABSENT)
-    status = stamped.reading.status
-    return Verdict(Truth.HOLDS if status == wanted else Truth.FAILS, status)
+    status, declared = stamped.reading.status, publication(stamped.source, name, scope.rules)
+    if declared is None:
+        return Verdict(Truth.ABSENT, status)
+    age_s = age(stamped.reading.stamp_ns, scope.now_ns)
+    if not 0.0 <= age_s <= declared.max_age_s:
+        return Verdict(Truth.STALE, status, age_s, declared.max_age_s)
+    return Verdict(Truth.HOLDS if status == wanted else Truth.FAILS, status, age_s, declared.max_age_s)
+
+
+def publication(source: str, name: str, rules: Rules) -> Published | None:
+    """How the kind of a value's source declares it; None if that kind publishes no such value."""
+    kind = rules.kind_of(source)
+    return None if kind is None else next((p for p in kind.publishes if p.name == name), None)
 
 
 def age(source_ns: int, now_ns: int) -> float:

@@ -1,8 +1,19 @@
 """The gate's fifth group of checks: stop, availability, lease, freshness, preconditions, deadline, approval."""
 
-from crew.contracts.codes import Code
+from collections.abc import Iterator
+
+from crew.contracts.codes import ORDER, Code
 from crew.contracts.contract import Condition
-from crew.contracts.gate.guard import SECOND_NS, Scope, Truth, Verdict, age, evaluate, robot_fluent_is
+from crew.contracts.gate.guard import (
+    SECOND_NS,
+    Scope,
+    Truth,
+    Verdict,
+    age,
+    evaluate,
+    robot_fluent_is,
+    value_name,
+)
 from crew.contracts.gate.scope import is_position, scope_of, skill_of
 from crew.contracts.mission_state import ACTIVE, MissionState, Purpose
 from crew.contracts.plan import Call
@@ -16,17 +27,35 @@ def check_state(
     call: Call, step: str, mission: MissionState, world: Snapshot, rules: Rules, now_ns: int, purpose: Purpose
 ) -> Refusal | None:
     """The first check of state that fails. A safe call is exempt from guards, deadline and approval."""
-    skill = skill_of(call, rules)
-    executing = purpose is Purpose.EXECUTE
     return (
         _check_availability(call, mission, world, rules)
         or _check_busy(call, step, mission, world)
-        or _check_freshness(call, world, rules, now_ns)
-        or _check_preconditions(call, skill, mission, world, rules, now_ns)
-        or (_check_guards(step, mission, world, rules, now_ns) if executing else None)
-        or (_check_deadline(mission, rules, now_ns) if executing else None)
-        or (_check_approval(step, mission, rules) if executing else None)
+        or _check_freshness(call, world, rules, now_ns, purpose)
+        or min(_conditions(call, step, mission, world, rules, now_ns, purpose), key=_rank, default=None)
     )
+
+
+def check_unheard(
+    call: Call, step: str, mission: MissionState, world: Snapshot, rules: Rules, now_ns: int
+) -> Refusal | None:
+    """What a dry run can say against a step although some state was never heard: staleness is left out."""
+    found = _conditions(call, step, mission, world, rules, now_ns, Purpose.EXECUTE)
+    return min((r for r in found if r.code is not Code.STATE_STALE), key=_rank, default=None)
+
+
+def _conditions(
+    call: Call, step: str, mission: MissionState, world: Snapshot, rules: Rules, now_ns: int, purpose: Purpose
+) -> Iterator[Refusal]:
+    """Every condition on the call that does not hold: preconditions; for a step also guards, deadline, approval."""
+    yield from _preconditions(call, skill_of(call, rules), mission, world, rules, now_ns)
+    if purpose is Purpose.EXECUTE:
+        yield from _guards(step, mission, world, rules, now_ns)
+        refusals = (_check_deadline(mission, rules, now_ns), _check_approval(step, mission, rules))
+        yield from (r for r in refusals if r is not None)
+
+
+def _rank(refusal: Refusal) -> int:
+    return ORDER[refusal.code]
 
 
 def _check_availability(call: Call, mission: MissionState, world: Snapshot, rules: Rules) -> Refusal | None:
@@ -71,37 +100,44 @@ def _check_busy(call: Call, step: str, mission: MissionState, world: Snapshot) -
     return Refusal(code=Code.ROBOT_BUSY, message=message, field=call.robot, observed=running, allowed="idle")
 
 
-def _check_freshness(call: Call, world: Snapshot, rules: Rules, now_ns: int) -> Refusal | None:
-    """A robot whose telemetry has gone quiet takes no call, whether or not a guard reads it."""
+def _check_freshness(call: Call, world: Snapshot, rules: Rules, now_ns: int, purpose: Purpose) -> Refusal | None:
+    """A robot takes no step while any fluent that it has told is too old, whether or not a guard reads it.
+
+    A safe call asks only for those that show its effect: a drone that lost its position may still be told to land.
+    """
     kind = rules.kind_of(call.robot)
     assert kind is not None
     fluents = world.robots[call.robot].fluents
-    for declared in kind.fluents:
-        stamped = fluents.get(declared.name)
-        if stamped is None:
-            continue
+    watched = skill_of(call, rules).effects if purpose is Purpose.SAFE else fluents
+    heard = [(f, fluents[f.name]) for f in kind.fluents if f.name in fluents and f.name in watched]
+    if not heard:
+        return _stale(call, call.robot, "nothing heard yet", "fresh telemetry")
+    for declared, stamped in heard:
         age_s = age(stamped.source_ns, now_ns)
-        if 0.0 <= age_s <= declared.max_age_s:
-            return None
-    newest = max((s.source_ns for s in fluents.values()), default=None)
-    seen = "nothing heard yet" if newest is None else f"newest state is {(now_ns - newest) / SECOND_NS:.1f} s old"
-    message = f"state of {call.robot} is stale: {seen}; is its adapter running? (crew status)"
-    return Refusal(code=Code.STATE_STALE, message=message, field=call.robot, observed=seen, allowed="fresh telemetry")
+        if not 0.0 <= age_s <= declared.max_age_s:
+            return _stale(call, f"{call.robot}.{declared.name}", f"{age_s:.1f} s old", f"{declared.max_age_s:g} s")
+    return None
 
 
-def _check_preconditions(
+def _stale(call: Call, field: str, observed: str, allowed: str) -> Refusal:
+    message = (
+        f"state of {call.robot} is stale: {field} {observed}, allowed {allowed}; is its adapter running? (crew status)"
+    )
+    return Refusal(code=Code.STATE_STALE, message=message, field=field, observed=observed, allowed=allowed)
+
+
+def _preconditions(
     call: Call, skill: Skill, mission: MissionState, world: Snapshot, rules: Rules, now_ns: int
-) -> Refusal | None:
+) -> Iterator[Refusal]:
     scope = scope_of(mission, world, rules, now_ns)
     for fluent, wanted in skill.needs.items():
         verdict = robot_fluent_is(call.robot, fluent, wanted, scope)
         refusal = _judge(f"{call.robot}.{fluent}", f"is {show(wanted)}", verdict, "")
         if refusal is not None:
-            return refusal
-    return None
+            yield refusal
 
 
-def _check_guards(step: str, mission: MissionState, world: Snapshot, rules: Rules, now_ns: int) -> Refusal | None:
+def _guards(step: str, mission: MissionState, world: Snapshot, rules: Rules, now_ns: int) -> Iterator[Refusal]:
     assert mission.instance is not None
     contract = rules.contracts[mission.instance.contract]
     declared = contract.step(step)
@@ -112,8 +148,7 @@ def _check_guards(step: str, mission: MissionState, world: Snapshot, rules: Rule
         line = f"{contract.name}:{condition.line}"
         refusal = _judge(condition.path, _wanted(condition), evaluate(condition, scope), line, scope)
         if refusal is not None:
-            return refusal
-    return None
+            yield refusal
 
 
 def _wanted(condition: Condition) -> str:
@@ -129,7 +164,7 @@ def _judge(path: str, wanted: str, verdict: Verdict, line: str, scope: Scope | N
         code = Code.PRECONDITION_FAILED
     elif scope is not None and path.partition(".")[0] not in scope.roles:
         message = f"needs that {path} {wanted}, but no usable value was published"
-        code = Code.NO_TARGET_FIX if is_position(path.partition(".")[0], scope.rules) else Code.NO_VALUE
+        code = Code.NO_TARGET_FIX if is_position(value_name(path, scope), scope.rules) else Code.NO_VALUE
     else:
         message = f"needs that {path} {wanted}, but its state is {verdict.truth}{aged}"
         code = Code.STATE_STALE

@@ -3,7 +3,7 @@
 import math
 
 from crew.contracts.codes import Code
-from crew.contracts.gate.guard import age
+from crew.contracts.gate.guard import age, publication
 from crew.contracts.gate.scope import is_position, skill_of
 from crew.contracts.mission_state import MissionState
 from crew.contracts.plan import Call, InstanceStep
@@ -55,8 +55,7 @@ def _usable(name: str, step: str, mission: MissionState, world: Snapshot, rules:
 
 def _stale(stamped: StampedValue, step: str, mission: MissionState, rules: Rules, now_ns: int) -> str:
     reading = stamped.reading
-    kind = rules.kind_of(stamped.source)
-    declared = None if kind is None else next((p for p in kind.publishes if p.name == reading.name), None)
+    declared = publication(stamped.source, reading.name, rules)
     if declared is None:
         return f"published by {stamped.source}, whose kind publishes no {reading.name}"
     age_s = age(reading.stamp_ns, now_ns)

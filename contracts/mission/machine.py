@@ -10,6 +10,8 @@ from msgspec.structs import replace
 
 from crew.contracts.codes import Code
 from crew.contracts.contract import Contract
+from crew.contracts.gate.authorize import finding_refusal
+from crew.contracts.language.containment import check_reading
 from crew.contracts.mission import event as ev
 from crew.contracts.mission.ending import ENDING, end_now, halt
 from crew.contracts.mission.record import RESULTS, accept, find, next_steps, put
@@ -46,7 +48,11 @@ def _proposed(state: MissionState, event: ev.Proposed, contracts: Mapping[str, C
 def _planner_failed(state: MissionState, event: ev.PlannerFailed, contracts: Mapping[str, Contract]) -> Result:
     if event.refusal is not None:
         return _replan(state, event.refusal)
-    return end_now(state, Phase.REJECTED, event.reason)
+    finding = check_reading(state.reading)
+    if finding is None:
+        return end_now(state, Phase.REJECTED, event.reason)
+    refused = replace(state, refusal=finding_refusal(finding))
+    return end_now(refused, Phase.REJECTED, f"{event.reason}; {finding.message}")
 
 
 def _validated(state: MissionState, event: ev.Validated, contracts: Mapping[str, Contract]) -> Result:

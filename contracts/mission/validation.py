@@ -3,9 +3,11 @@
 import msgspec
 from msgspec.structs import replace
 
-from crew.contracts.codes import Code
+from crew.contracts.codes import GROUP_OF, Code, Group
 from crew.contracts.decision import Authorizer
 from crew.contracts.gate.arguments import check_call
+from crew.contracts.gate.state import check_unheard
+from crew.contracts.gate.value import check_values
 from crew.contracts.matching import match
 from crew.contracts.mission.effect import assumed_world, predict
 from crew.contracts.mission_state import MissionState, Phase, Purpose, Question, StepPhase, StepRecord
@@ -67,8 +69,14 @@ def _dry_run(
     predicted = assumed_world(world, mission.id, rules, now_ns)
     for index, step in enumerate(instance.steps):
         decision = authorizer.authorize(step.call, state, predicted, rules, now_ns, Purpose.EXECUTE)
-        if decision.refusal is not None and decision.refusal.code is not Code.STATE_STALE:
-            return _at(decision.refusal, index)
+        refusal, places = decision.refusal, decision.places
+        if refusal is not None and refusal.code is Code.STATE_STALE:
+            refusal = check_unheard(step.call, step.step, state, predicted, rules, now_ns)
+            if refusal is None:
+                outcome = check_values(step.call, step.step, state, predicted, rules, now_ns)
+                refusal, places = (outcome, {}) if isinstance(outcome, Refusal) else (None, outcome)
+        if refusal is not None:
+            return _at(refusal, index)
         kind = rules.kind_of(step.call.robot)
         skill = None if kind is None else kind.skill(step.call.skill)
         assert skill is not None, f"{step.call} passed the capability check"
@@ -78,14 +86,15 @@ def _dry_run(
             phase=StepPhase.SUCCEEDED,
             sequence=index + 1,
             dispatched_ns=now_ns,
-            places=decision.places,
+            places=places,
         )
         state = replace(state, steps={**state.steps, step.step: done})
     return None
 
 
 def _at(refusal: Refusal, index: int) -> Refusal:
-    if refusal.field.startswith(("steps[", "slot")):
+    """A refusal with its place in the plan; containment speaks of the plan as a whole and names its own."""
+    if refusal.field.startswith("steps[") or GROUP_OF[refusal.code] is Group.CONTAINMENT:
         return refusal
     field = f"steps[{index}].{refusal.field}" if refusal.field else f"steps[{index}]"
     return replace(refusal, field=field)
