@@ -80,7 +80,7 @@ class Replay:
         self.counts: Counter[str] = Counter()
         self.problems: list[str] = []
         self._rules: Rules | None = None
-        self._states: dict[str, MissionState] = {}
+        self.states: dict[str, MissionState] = {}
         self._allowed: set[tuple[str, str]] = set()
         self._gate = Gate()
 
@@ -115,7 +115,7 @@ class Replay:
     def _replay(self, row: Row, record: Record, rules: Rules) -> None:
         match record:
             case MissionRecord():
-                self._states[record.state.id] = record.state
+                self.states[record.state.id] = record.state
             case EventRecord():
                 self._event(row, record, rules)
             case ValidationRecord():
@@ -135,12 +135,12 @@ class Replay:
                 self._allowed.discard((dispatch.mission, dispatch.step))
 
     def _event(self, row: Row, record: EventRecord, rules: Rules) -> None:
-        state = self._states.get(record.mission)
+        state = self.states.get(record.mission)
         if state is None:
             self._problem(row, f"an event of mission {record.mission}, which never began")
             return
         state, _ = step(state, record.event, rules.contracts)
-        self._states[record.mission] = state
+        self.states[record.mission] = state
         if digest(state) != record.state_digest:
             self._problem(
                 row, f"mission {record.mission} comes out in another state after {type(record.event).__name__}"
@@ -157,7 +157,7 @@ class Replay:
             self._allowed.add((decision.mission, decision.step))
 
     def _state(self, row: Row, mission: str, state_digest: str) -> MissionState | None:
-        state = self._states.get(mission)
+        state = self.states.get(mission)
         if state is None:
             self._problem(row, f"it speaks of mission {mission}, which never began")
         elif digest(state) != state_digest:

@@ -62,9 +62,13 @@ def unseen_effect(record: StepRecord, scope: Scope) -> str:
     return ""
 
 
-def safe_state_missing(robot: str, reach: Mapping[str, FluentLiteral], scope: Scope) -> str:
-    """Empty if a safe state already holds in fresh telemetry; otherwise the first fluent that does not."""
+def safe_state_missing(robot: str, reach: Mapping[str, FluentLiteral], scope: Scope, since_ns: int = 0) -> str:
+    """Empty if a safe state holds in fresh telemetry, newer than the robot's last dispatch; otherwise what is missing."""
+    state = scope.world.robots.get(robot)
     for fluent, wanted in reach.items():
+        stamped = None if state is None else state.fluents.get(fluent)
+        if since_ns and (stamped is None or stamped.source_ns <= since_ns):
+            return f"{robot}.{fluent} has not been observed since the last dispatch"
         verdict = robot_fluent_is(robot, fluent, wanted, scope)
         if verdict.truth is not Truth.HOLDS:
             return f"{robot}.{fluent} is {verdict.observed if verdict.truth is Truth.FAILS else verdict.truth}"

@@ -7,7 +7,7 @@ from msgspec.structs import replace
 
 from crew.contracts.contract import Contract
 from crew.contracts.mission import event as ev
-from crew.contracts.mission.record import RESULTS, SAFE, accept, find, put
+from crew.contracts.mission.record import SAFE, accept, confirm, find, put, result_phase
 from crew.contracts.mission_state import ACTIVE, MissionState, Phase, Purpose, StepPhase, StepRecord
 
 Result = tuple[MissionState, tuple[ev.AnyEffect, ...]]
@@ -63,13 +63,20 @@ def _settle(state: MissionState, role: str) -> Result:
 
 
 def _safe_holds(state: MissionState, event: ev.SafeHolds, contracts: Mapping[str, Contract]) -> Result:
+    """Counts only for a role whose robot runs nothing: what still runs may leave the safe state again."""
+    assert state.instance is not None
+    robot = state.instance.roles.get(event.role)
+    if robot is None or event.role in state.safe or state.active(robot):
+        return state, ()
     return _settle(state, event.role)
 
 
 def _decided(state: MissionState, event: ev.Decided, contracts: Mapping[str, Contract]) -> Result:
     decision = event.decision
     role = decision.step.removeprefix(SAFE)
-    if decision.purpose is not Purpose.SAFE or role in state.settled or role in state.safe:
+    assert state.instance is not None
+    known = decision.mission == state.id and state.instance.roles.get(role) == decision.call.robot
+    if decision.purpose is not Purpose.SAFE or not known or role in state.settled or role in state.safe:
         return state, ()
     if decision.refusal is not None:
         refused = StepRecord(
@@ -91,9 +98,10 @@ def _outcome(state: MissionState, event: ev.Outcome, contracts: Mapping[str, Con
     if found is None or found[1].phase not in ACTIVE:
         return state, ()
     name, record = found
-    if name.startswith(SAFE) and event.result == "succeeded":
-        return put(state, name, replace(record, phase=StepPhase.CONFIRMING)), (ev.WatchEffect(sequence=event.sequence),)
-    state = put(state, name, replace(record, phase=RESULTS[event.result], code=event.code, detail=event.detail))
+    if event.result == "succeeded":
+        return confirm(state, name, record)
+    phase = result_phase(event.result)
+    state = put(state, name, replace(record, phase=phase, code=event.code, detail=event.detail))
     return _after_record(state, name, record)
 
 

@@ -35,7 +35,9 @@ def missing_safety(role: str, mission: MissionState, world: Snapshot, rules: Rul
     if declared is None or declared.safe is None:
         return ""
     robot = mission.instance.roles[role]
-    return safe_state_missing(robot, declared.safe.reach, scope_of(mission, world, rules, now_ns))
+    records = (*mission.steps.values(), *mission.safe.values())
+    since_ns = max((r.dispatched_ns for r in records if r.call.robot == robot), default=0)
+    return safe_state_missing(robot, declared.safe.reach, scope_of(mission, world, rules, now_ns), since_ns)
 
 
 def safe_call(role: str, mission: MissionState, rules: Rules) -> Call | None:

@@ -14,7 +14,7 @@ from crew.contracts.gate.authorize import finding_refusal
 from crew.contracts.language.containment import check_reading
 from crew.contracts.mission import event as ev
 from crew.contracts.mission.ending import ENDING, end_now, halt
-from crew.contracts.mission.record import RESULTS, accept, find, next_steps, put
+from crew.contracts.mission.record import accept, confirm, find, next_steps, put, result_phase
 from crew.contracts.mission.validation import pending_steps
 from crew.contracts.mission_state import ACTIVE, ENDS, MissionState, Phase, Purpose, StepPhase
 from crew.contracts.refusal import Refusal
@@ -109,6 +109,8 @@ def _decided(state: MissionState, event: ev.Decided, contracts: Mapping[str, Con
     record = state.steps.get(decision.step)
     if record is None or decision.purpose is not Purpose.EXECUTE or record.phase is not StepPhase.DECIDING:
         return state, ()
+    if decision.mission != state.id or decision.call != record.call:
+        return state, ()
     if decision.refusal is None:
         sent = replace(
             record,
@@ -134,9 +136,8 @@ def _outcome(state: MissionState, event: ev.Outcome, contracts: Mapping[str, Con
         return state, ()
     name, record = found
     if event.result == "succeeded":
-        confirming = replace(record, phase=StepPhase.CONFIRMING)
-        return put(state, name, confirming), (ev.WatchEffect(sequence=event.sequence),)
-    ended = replace(record, phase=RESULTS[event.result], code=event.code, detail=event.detail)
+        return confirm(state, name, record)
+    ended = replace(record, phase=result_phase(event.result), code=event.code, detail=event.detail)
     message = f"step {name} ({record.call}) {event.result}: {event.detail or event.code or 'no reason given'}"
     return halt(put(state, name, ended), message, contracts)
 
@@ -146,12 +147,16 @@ def _effect_seen(state: MissionState, event: ev.EffectSeen, contracts: Mapping[s
     if found is None or found[1].phase is not StepPhase.CONFIRMING:
         return state, ()
     state = put(state, found[0], replace(found[1], phase=StepPhase.SUCCEEDED))
-    if all(r.phase is StepPhase.SUCCEEDED for r in state.steps.values()):
-        return state, (ev.JudgeCompletion(),)
-    return next_steps(state)
+    return (state, (ev.JudgeCompletion(),)) if _all_done(state) else next_steps(state)
+
+
+def _all_done(state: MissionState) -> bool:
+    return all(r.phase is StepPhase.SUCCEEDED for r in state.steps.values())
 
 
 def _completion(state: MissionState, event: ev.CompletionJudged, contracts: Mapping[str, Contract]) -> Result:
+    if not _all_done(state):
+        return state, ()
     if not event.missing:
         return end_now(state, Phase.COMPLETED, "every step was done and the contract's completion was observed")
     return halt(state, f"every step was done, but the mission is not complete: {event.missing}", contracts)

@@ -19,6 +19,11 @@ RESULTS: dict[str, StepPhase] = {
 """What a robot may report of a dispatch, as the phase that its step ends in."""
 
 
+def result_phase(result: str) -> StepPhase:
+    """The phase that a report ends a step in; a word that nobody knows tells nothing."""
+    return RESULTS.get(result, StepPhase.UNKNOWN)
+
+
 def find(state: MissionState, sequence: int) -> tuple[str, StepRecord] | None:
     """The record with this sequence: a step's name, or `safe:<role>`."""
     for name, record in state.steps.items():
@@ -43,6 +48,14 @@ def next_steps(state: MissionState) -> tuple[MissionState, tuple[ev.AnyEffect, .
     for name in names:
         state = put(state, name, replace(state.steps[name], phase=StepPhase.DECIDING))
     return state, tuple(ev.Authorise(step=name) for name in names)
+
+
+def confirm(state: MissionState, name: str, record: StepRecord) -> tuple[MissionState, tuple[ev.AnyEffect, ...]]:
+    """A robot says that it succeeded: its word starts the look for the effect, once."""
+    if record.phase is StepPhase.CONFIRMING:
+        return state, ()
+    watch = ev.WatchEffect(sequence=record.sequence)
+    return put(state, name, replace(record, phase=StepPhase.CONFIRMING)), (watch,)
 
 
 def accept(

@@ -8,8 +8,7 @@ from crew.cli.output import coloured, say, say_json, table
 from crew.cli.session import home
 from crew.errors import JournalError, UsageError
 from crew.journal_reader import read_records
-from crew.records import EventRecord, MissionRecord
-from crew.verify import JOURNAL, verify_run
+from crew.verify import JOURNAL, Replay, verify_run
 
 
 class RunSummary(msgspec.Struct, frozen=True, kw_only=True):
@@ -19,7 +18,7 @@ class RunSummary(msgspec.Struct, frozen=True, kw_only=True):
     records: int
     missions: tuple[str, ...]
     requests: tuple[str, ...]
-    last: str
+    outcome: str
 
 
 def run_runs(folder: Path, as_json: bool) -> int:
@@ -32,7 +31,7 @@ def run_runs(folder: Path, as_json: bool) -> int:
         say(f"no runs in {folder.absolute()}; make one with crew demo, or name another folder with --runs")
         return 0
     for line in table(
-        {"run": s.run, "records": str(s.records), "last": s.last, "request": "; ".join(s.requests)[:60]} for s in found
+        {"run": s.run, "records": str(s.records), "outcome": s.outcome, "request": "; ".join(s.requests)[:60]} for s in found
     ):
         say(line)
     return 0
@@ -40,19 +39,20 @@ def run_runs(folder: Path, as_json: bool) -> int:
 
 def summarise(folder: Path) -> RunSummary:
     """A run's requests and its last word; a journal that can't be read says so."""
-    requests, missions, last, count = [], [], "nothing happened", 0
+    replay, problem = Replay(), ""
     try:
         for row in read_records(folder / JOURNAL):
-            count += 1
-            if row.kind == MissionRecord.kind:
-                state = msgspec.msgpack.decode(row.body, type=MissionRecord).state
-                requests.append(state.request)
-                missions.append(state.id)
-            elif row.kind == EventRecord.kind:
-                last = type(msgspec.msgpack.decode(row.body, type=EventRecord).event).__name__
-    except (JournalError, msgspec.MsgspecError) as error:
-        last = f"unreadable: {error}"
-    return RunSummary(run=folder.name, records=count, missions=tuple(missions), requests=tuple(requests), last=last)
+            replay.take(row)
+    except JournalError as error:
+        problem = f"unreadable: {error}"
+    states = replay.states.values()
+    return RunSummary(
+        run=folder.name,
+        records=replay.counts.total(),
+        missions=tuple(s.id for s in states),
+        requests=tuple(s.request for s in states),
+        outcome=problem or ", ".join(str(s.phase) for s in states) or "no mission",
+    )
 
 
 def run_verify(run: Path, runs: Path, key: Path | None, as_json: bool) -> int:
@@ -62,7 +62,7 @@ def run_verify(run: Path, runs: Path, key: Path | None, as_json: bool) -> int:
     if as_json:
         say_json({"run": str(folder), "holds": report.holds, **msgspec.to_builtins(report)})
         return 0 if report.holds else 1
-    counts = ", ".join(f"{n} {kind}s" for kind, n in sorted(report.replayed.items()))
+    counts = ", ".join(f"{kind} {n}" for kind, n in sorted(report.replayed.items()))
     say(f"{folder}: {report.records} records ({counts})")
     for note in report.notes:
         say(f"note: {note}")
