@@ -63,7 +63,7 @@ def unseen_effect(record: StepRecord, scope: Scope) -> str:
 
 
 def safe_state_missing(robot: str, reach: Mapping[str, FluentLiteral], scope: Scope, since_ns: int = 0) -> str:
-    """Empty if a safe state holds in fresh telemetry, newer than the robot's last dispatch; otherwise what is missing."""
+    """Empty if a safe state holds in fresh telemetry that is newer than `since_ns`; otherwise what is missing."""
     state = scope.world.robots.get(robot)
     for fluent, wanted in reach.items():
         stamped = None if state is None else state.fluents.get(fluent)
