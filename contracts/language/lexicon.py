@@ -5,45 +5,18 @@ from functools import cached_property
 from itertools import product
 
 import msgspec
-from msgspec.structs import replace
 
 from crew.contracts.contract import Contract, Step
-from crew.contracts.language.inflect import Form, inflections, plurals
+from crew.contracts.language.entry import Entry, Words, stands, words_of
+from crew.contracts.language.inflect import Form, inflections
 from crew.contracts.language.mention import MentionKind, StepRef
+from crew.contracts.language.naming import entities
 from crew.contracts.language.templates import fixed_phrases, opening_phrases
-from crew.contracts.language.tokens import Token, tokenize
-from crew.contracts.language.words import (
-    FUNCTION_WORDS,
-    PLACE_NOUNS,
-    REQUESTER,
-    ROBOT_WORDS,
-    ROLE_ORDER,
-    SELF_WORDS,
-    ZONE_NOUNS,
-    Role,
-)
-from crew.contracts.plan import SlotValue, Zone
+from crew.contracts.language.tokens import Token
+from crew.contracts.language.words import FUNCTION_WORDS, ROLE_ORDER, Role
+from crew.contracts.plan import Zone
 from crew.contracts.site import Rules
 from crew.contracts.skill import Kind, Skill
-
-Words = tuple[str, ...]
-
-
-class Entry(msgspec.Struct, frozen=True, kw_only=True):
-    """What a phrase names, or does."""
-
-    words: Words
-    role: Role = Role.MENTION
-    kind: MentionKind = MentionKind.UNKNOWN
-    name: str = ""
-    values: tuple[SlotValue, ...] = ()
-    plural: bool = False
-    means: tuple[StepRef, ...] = ()
-    form: Form = Form.BASE
-    modifiers: frozenset[str] = frozenset()
-    """Adjectives that other aliases of the same thing carry: harmless in front of any of them."""
-    near_is_at: bool = False
-    """Robots stop beside it anyway, so that "near" says nothing more."""
 
 
 class Lexicon(msgspec.Struct, frozen=True, kw_only=True, dict=True):
@@ -87,14 +60,9 @@ def match(table: Mapping[str, tuple[Entry, ...]], tokens: list[Token], at: int) 
     return None
 
 
-def stands(tokens: list[Token], at: int, words: Words) -> bool:
-    """Whether the words stand here, given that the first one does."""
-    return len(words) == 1 or tuple(t.norm for t in tokens[at : at + len(words)]) == words
-
-
 def build_lexicon(rules: Rules) -> Lexicon:
     """Collect the crew's words. Costs milliseconds; see `lexicon_of` for a cached one."""
-    entries = [*_entities(rules), *_actions(rules)]
+    entries = [*entities(rules), *_actions(rules)]
     plain = {role: phrases for role, phrases in FUNCTION_WORDS.items() if role not in ROLE_ORDER}
     special = {role: FUNCTION_WORDS[role] for role in ROLE_ORDER}
     return Lexicon(
@@ -122,85 +90,6 @@ def lexicon_of(rules: Rules) -> Lexicon:
     if not isinstance(cached, Lexicon):
         cached = rules.__dict__["_lexicon"] = build_lexicon(rules)
     return cached
-
-
-def words_of(phrase: str) -> Words:
-    """A name or alias as the tokens that a request would show, without a leading article."""
-    words = tuple(t.norm for t in tokenize(phrase))
-    return words[1:] if len(words) > 1 and words[0] in ("the", "a", "an") else words
-
-
-def _variants(phrase: str) -> Iterator[Words]:
-    """A name's spellings: as written, and with letters and digits apart (`tb3`, `tb 3`)."""
-    words = words_of(phrase)
-    yield words
-    apart = tuple(part for word in words for part in _split_digits(word))
-    if apart != words:
-        yield apart
-
-
-def _split_digits(word: str) -> tuple[str, ...]:
-    stem = word.rstrip("0123456789")
-    return (stem, word[len(stem) :]) if len(stem) > 1 and stem != word else (word,)
-
-
-def _entities(rules: Rules) -> Iterator[Entry]:
-    yield from _robots(rules)
-    crew = rules.crew
-    for place in crew.locations:
-        yield from _named(MentionKind.LOCATION, place.name, place.name, place.aliases)
-    for zone in crew.zones:
-        yield from _named(MentionKind.ZONE, zone.name, zone.zone, zone.aliases)
-    for thing in crew.objects:
-        yield from _named(MentionKind.OBJECT, thing.name, thing.name, thing.aliases)
-    for value in crew.values:
-        extra = SELF_WORDS if value.name == REQUESTER else ()
-        near = value.standoff_m > 0
-        entries = list(_named(MentionKind.VALUE, value.name, value.name, (*value.aliases, *extra), near))
-        yield from entries
-        yield from (replace(e, words=many, plural=True) for e in entries for many in plurals(e.words))
-    for zone in crew.zones:
-        yield from _zone_noun_variants(zone.name, zone.zone, (zone.name, *zone.aliases))
-
-
-def _named(
-    kind: MentionKind, name: str, value: SlotValue, aliases: Iterable[str], near: bool = False
-) -> Iterator[Entry]:
-    spellings = list(dict.fromkeys(words for phrase in (name, *aliases) for words in _variants(phrase)))
-    heads = {words[0] for words in spellings if len(words) == 1}
-    modifiers = frozenset(w for words in spellings if words[-1] in heads for w in words[:-1])
-    for words in spellings:
-        yield Entry(words=words, kind=kind, name=name, values=(value,), modifiers=modifiers, near_is_at=near)
-
-
-def _zone_noun_variants(name: str, zone: Zone, phrases: Iterable[str]) -> Iterator[Entry]:
-    """`northern half` also answers to `northern part`, unless another zone bears that name."""
-    for phrase in phrases:
-        words = words_of(phrase)
-        if len(words) > 1 and words[-1] in ZONE_NOUNS:
-            for noun in ZONE_NOUNS:
-                yield Entry(words=(*words[:-1], noun), kind=MentionKind.ZONE, name=name, values=(zone,))
-
-
-def _robots(rules: Rules) -> Iterator[Entry]:
-    crew = rules.crew
-    for robot in crew.robots:
-        for words in dict.fromkeys(w for phrase in (robot.name, *robot.aliases) for w in _variants(phrase)):
-            yield Entry(words=words, kind=MentionKind.ROBOT, name=robot.name, values=(robot.name,))
-    for kind in rules.kinds.values():
-        members = tuple(r.name for r in crew.robots if r.kind == kind.name)
-        if members:
-            yield from _class_words((kind.name, *kind.aliases), members)
-    if crew.robots:
-        yield from _class_words(ROBOT_WORDS, tuple(r.name for r in crew.robots))
-
-
-def _class_words(phrases: Iterable[str], members: tuple[str, ...]) -> Iterator[Entry]:
-    name = " or ".join(members)
-    for words in dict.fromkeys(w for phrase in phrases for w in _variants(phrase)):
-        yield Entry(words=words, kind=MentionKind.ROBOT_CLASS, name=name, values=members)
-        for many in plurals(words):
-            yield Entry(words=many, kind=MentionKind.ROBOT_CLASS, name=name, values=members, plural=True)
 
 
 def _actions(rules: Rules) -> Iterator[Entry]:
@@ -299,6 +188,3 @@ def _index(entries: Iterable[Entry]) -> dict[str, tuple[Entry, ...]]:
         if entry.words:
             table.setdefault(entry.words[0], []).append(entry)
     return {first: tuple(sorted(found, key=lambda e: -len(e.words))) for first, found in table.items()}
-
-
-__all__ = ["PLACE_NOUNS", "Entry", "Lexicon", "build_lexicon", "lexicon_of", "match", "stands", "words_of"]

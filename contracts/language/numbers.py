@@ -6,8 +6,9 @@ World ENU, metres. A range on one axis alone spans the operational area on the o
 from collections.abc import Callable
 from typing import NamedTuple
 
-from crew.contracts.language.figures import Figure, figure, is_numeral, norm_at, skip
+from crew.contracts.language.figures import figure, is_numeral, norm_at, skip
 from crew.contracts.language.mention import MentionKind
+from crew.contracts.language.ranges import BRACKETS, OTHER_AXIS, axis_range, labelled, ordered
 from crew.contracts.language.tokens import Token
 from crew.contracts.language.words import PLACE_NOUNS, ZONE_NOUNS
 from crew.contracts.plan import SlotValue, Spot, Zone
@@ -44,10 +45,6 @@ _NOT_HEIGHT = frozenset(
 _FRAMES = frozenset((*ZONE_NOUNS, "rectangle", "box", "square", "strip", "range", "corners"))
 _FRAME_LINKS = frozenset(("with", "where", "of", "between", "from", ",", ":", "for", "bounded", "by", "at", "in"))
 _JOINTS = (",", ";", "and", "&")
-_BRACKETS = {"(": ")", "[": "]"}
-_OTHER_AXIS = {"x": "y", "y": "x"}
-
-Interval = tuple[float, float]
 
 
 class Figures(NamedTuple):
@@ -58,12 +55,6 @@ class Figures(NamedTuple):
     kind: MentionKind
     value: SlotValue
     name: str
-
-
-class _Range(NamedTuple):
-    axes: str
-    span: Interval
-    after: int
 
 
 def read_figures(tokens: list[Token], area: Zone, takes_zone: Callable[[int], bool]) -> list[Figures]:
@@ -88,98 +79,19 @@ def _zone(tokens: list[Token], at: int, area: Zone, takes_zone: Callable[[int], 
     corners = _corners(tokens, at, takes_zone)
     if corners is not None:
         return corners
-    first = _range(tokens, at)
+    first = axis_range(tokens, at)
     if first is None:
         return None
     spans = dict.fromkeys(first.axes, first.span)
     after = first.after
     if len(first.axes) == 1:
-        second = _range(tokens, skip(tokens, after, *_JOINTS)) or _range(tokens, skip(tokens, after + 1, *_JOINTS))
-        if second is not None and second.axes == _OTHER_AXIS[first.axes]:
+        second = axis_range(tokens, skip(tokens, skip(tokens, after, ",", ";"), "and", "&"))
+        if second is not None and second.axes == OTHER_AXIS[first.axes]:
             spans[second.axes] = second.span
             after = second.after
     x, y = spans.get("x", (area.x_min, area.x_max)), spans.get("y", (area.y_min, area.y_max))
     zone = Zone(x[0], x[1], y[0], y[1])
     return Figures(at, after, MentionKind.ZONE, zone, show_zone(zone))
-
-
-def _range(tokens: list[Token], at: int) -> _Range | None:
-    """One range with the axis or axes that it is for, named before or behind it."""
-    labelled = _labelled_span(tokens, at)
-    if labelled is not None:
-        return labelled
-    axes, after = _axes(tokens, skip(tokens, at, "for", "in", "on"))
-    if axes:
-        span = _span(tokens, skip(tokens, after, ":", "=", "in", "is", "range", "ranges", "axis"), opened=True)
-        return None if span is None else _Range(axes, span[0], span[1])
-    span = _span(tokens, at, opened=False)
-    if span is None or norm_at(tokens, span[1]) not in ("in", "on", "along", "for"):
-        return None
-    axes, after = _axes(tokens, skip(tokens, span[1] + 1, "the"))
-    return _Range(axes, span[0], skip(tokens, after, "axis", "axes", "direction", "directions")) if axes else None
-
-
-def _axes(tokens: list[Token], at: int) -> tuple[str, int]:
-    """`x`, `y`, `x and y`, `both axes`."""
-    word = norm_at(tokens, at)
-    if word in ("both", "each"):
-        after = skip(tokens, at + 1, "axes", "axis", "directions", "coordinates")
-        if after > at + 1:
-            return "xy", after
-        word, at = norm_at(tokens, at + 1), at + 1
-    if word not in _OTHER_AXIS:
-        return "", at
-    joined = norm_at(tokens, at + 1)
-    if joined in ("and", ",", "&") and norm_at(tokens, at + 2) == _OTHER_AXIS[word]:
-        return "xy", at + 3
-    return word, skip(tokens, at + 1, "axis", "coordinate", "coordinates")
-
-
-def _span(tokens: list[Token], at: int, *, opened: bool) -> tuple[Interval, int] | None:
-    """`from a to b`, `between a and b`, `[a, b]`; `a to b` only behind an axis (`opened`)."""
-    opener = norm_at(tokens, at)
-    links: tuple[str, ...]
-    if opener in ("from", "between"):
-        links = ("and", "to", "-") if opener == "between" else ("to", "until", "till", "through", "-", "up")
-    elif opener in _BRACKETS and opened:
-        links = (",", ";", "to", "-")
-    elif opened:
-        opener, links, at = "", ("to", "-", "through"), at - 1
-    else:
-        return None
-    low = figure(tokens, at + 1)
-    if low is None or norm_at(tokens, low.after) not in links:
-        return None
-    high = figure(tokens, skip(tokens, low.after + 1, "to") if norm_at(tokens, low.after) == "up" else low.after + 1)
-    if high is None:
-        return None
-    after = high.after
-    if opener in _BRACKETS:
-        if norm_at(tokens, after) != _BRACKETS[opener]:
-            return None
-        after += 1
-    return _ordered(low.value, high.value), after
-
-
-def _labelled_span(tokens: list[Token], at: int) -> _Range | None:
-    """`from x = 0 to x = 4`, `x = 0 to x = 4`."""
-    low = _labelled(tokens, skip(tokens, at, "from", "between"))
-    if low is None or norm_at(tokens, low[1].after) not in ("to", "and"):
-        return None
-    high = _labelled(tokens, low[1].after + 1)
-    if high is None or high[0] != low[0]:
-        return None
-    return _Range(low[0], _ordered(low[1].value, high[1].value), high[1].after)
-
-
-def _labelled(tokens: list[Token], at: int) -> tuple[str, Figure] | None:
-    """`x = 3`, `x minus two`, `x: 3`, `x is 3`."""
-    axis = norm_at(tokens, at)
-    if axis not in _OTHER_AXIS:
-        return None
-    after = skip(tokens, at + 1, "coordinate")
-    value = figure(tokens, skip(tokens, after, "=", ":", "is", "equals", "at", "of"))
-    return None if value is None else (axis, value)
 
 
 def _corners(tokens: list[Token], at: int, takes_zone: Callable[[int], bool]) -> Figures | None:
@@ -192,7 +104,7 @@ def _corners(tokens: list[Token], at: int, takes_zone: Callable[[int], bool]) ->
     second = _point(tokens, first[1] + 1)
     if second is None or not (framed or (opener == "from" and takes_zone(at))):
         return None
-    (x_min, x_max), (y_min, y_max) = _ordered(first[0].x, second[0].x), _ordered(first[0].y, second[0].y)
+    (x_min, x_max), (y_min, y_max) = ordered(first[0].x, second[0].x), ordered(first[0].y, second[0].y)
     zone = Zone(x_min, x_max, y_min, y_max)
     return Figures(at, second[1], MentionKind.ZONE, zone, show_zone(zone))
 
@@ -221,24 +133,22 @@ def _point_mention(tokens: list[Token], at: int) -> Figures | None:
 def _point(tokens: list[Token], at: int, *, spaced: bool = False) -> tuple[Spot, int] | None:
     """`(7.5, 4.0)`, `7.5, 4`, `x = 3 y = 4`, and `7.5 4` if `spaced`."""
     opener = norm_at(tokens, at)
-    inner = at + 1 if opener in _BRACKETS else at
-    first = _labelled(tokens, inner)
+    inner = at + 1 if opener in BRACKETS else at
+    first = labelled(tokens, inner)
     pair = (
-        _labelled_pair(tokens, inner)
-        if first is not None
-        else _plain_pair(tokens, inner, opener in _BRACKETS or spaced)
+        _labelled_pair(tokens, inner) if first is not None else _plain_pair(tokens, inner, opener in BRACKETS or spaced)
     )
     if pair is None:
         return None
     spot, after = pair
-    if opener in _BRACKETS:
-        return (spot, after + 1) if norm_at(tokens, after) == _BRACKETS[opener] else None
+    if opener in BRACKETS:
+        return (spot, after + 1) if norm_at(tokens, after) == BRACKETS[opener] else None
     return spot, after
 
 
 def _labelled_pair(tokens: list[Token], at: int) -> tuple[Spot, int] | None:
-    first = _labelled(tokens, at)
-    second = None if first is None else _labelled(tokens, skip(tokens, first[1].after, *_JOINTS))
+    first = labelled(tokens, at)
+    second = None if first is None else labelled(tokens, skip(tokens, first[1].after, *_JOINTS))
     if first is None or second is None or first[0] == second[0]:
         return None
     values = {first[0]: first[1].value, second[0]: second[1].value}
@@ -292,7 +202,3 @@ def _height(tokens: list[Token], start: int, value: float, after: int) -> Figure
 
 def _stands(tokens: list[Token], at: int, words: tuple[str, ...]) -> bool:
     return all(norm_at(tokens, at + k) == word for k, word in enumerate(words))
-
-
-def _ordered(a: float, b: float) -> Interval:
-    return (a, b) if a <= b else (b, a)

@@ -2,8 +2,8 @@
 
 from dataclasses import dataclass, field
 
+from crew.contracts.language.entry import Entry
 from crew.contracts.language.inflect import Form
-from crew.contracts.language.lexicon import Entry
 from crew.contracts.language.mention import ROBOT_KINDS, Direction, MentionKind, StepRef
 from crew.contracts.language.words import Role
 from crew.contracts.plan import SlotValue

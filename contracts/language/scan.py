@@ -1,7 +1,8 @@
 """From tokens to pieces: figures first, then the longest known phrase, with the few idioms that need a look ahead."""
 
+from crew.contracts.language.entry import Entry, stands
 from crew.contracts.language.figures import is_numeral
-from crew.contracts.language.lexicon import Entry, Lexicon, match, stands
+from crew.contracts.language.lexicon import Lexicon, match
 from crew.contracts.language.mention import ROBOT_KINDS, MentionKind
 from crew.contracts.language.numbers import Figures, read_figures
 from crew.contracts.language.piece import Piece, of_entry

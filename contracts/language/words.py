@@ -94,7 +94,7 @@ FUNCTION_WORDS: dict[Role, tuple[str, ...]] = {
     Role.AVOID: (
         "avoid", "avoiding", "skip", "skipping", "stay away from", "keep away from", "keep out of", "stay out of",
         "leave out", "leaving out", "away from", "stay clear of", "keep clear of", "ignore", "ignoring", "omit",
-        "omitting", "forbid", "forbidden", "outside", "outside of", "beyond",
+        "omitting", "forbid", "forbidden", "prevent", "preventing", "prohibit", "outside", "outside of", "beyond",
     ),
     Role.CONDITION: (
         "if", "unless", "until", "till", "before", "in case", "whether", "provided", "assuming", "otherwise", "else",

@@ -77,6 +77,11 @@ def test_what_is_no_plain_figure_in_metres_is_unread(text: str, lexicon: Lexicon
     assert reading.unread
 
 
+def test_a_word_between_two_ranges_is_not_lost(lexicon: Lexicon) -> None:
+    reading = read_request("search x from 0 to 4 not y from 1 to 2", lexicon)
+    assert [m.positive for m in reading.mentions] == [True, True, False]
+
+
 def test_travel_between_points_is_no_zone(lexicon: Lexicon) -> None:
     assert figures("drive the rover from (0,0) to (4,4)", lexicon, MentionKind.ZONE) == []
 
