@@ -14,7 +14,7 @@ from typing import Generic, Self, TypeVar
 import msgspec
 
 from crew.bus.port import Sample
-from crew.clock import seconds_ns
+from crew.clock import seconds_ns, turn
 from crew.wire import DEFAULT_LIMIT_BYTES, Message, Refusal, WireRefusal, decode
 
 T = TypeVar("T")
@@ -103,7 +103,7 @@ class Mailbox(ABC, Generic[T]):
                 return item
             if self._turn_due:
                 self._turn_due = False
-                await asyncio.sleep(0)
+                await turn()
             if self._refill():
                 self._turn_due = True
                 continue

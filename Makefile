@@ -1,0 +1,40 @@
+# The developer's commands. Each sets up .venv by itself when pyproject.toml has changed; CI runs the same ones.
+
+BIN := .venv/bin
+CREW ?= air_ground
+ARGS ?=
+
+.PHONY: help demo test check bench soak study clean
+
+help:  ## this list
+	@grep -E '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):.*## */make \1\t/' | expand -t 14
+
+demo: .venv/.ready  ## bring a crew up in simulation, carry out one request (CREW=air_ground ARGS="--seed 3")
+	@$(BIN)/crew demo $(CREW) $(ARGS)
+
+test: .venv/.ready  ## unit and integration tests (ARGS="tests/unit -x")
+	$(BIN)/python -m pytest $(ARGS)
+
+check: .venv/.ready  ## formatting, lint, types, import layers
+	$(BIN)/ruff format --check .
+	$(BIN)/ruff check .
+	$(BIN)/mypy
+	$(BIN)/lint-imports
+
+bench: .venv/.ready  ## measure speed and latency
+	$(BIN)/python -m tests.bench $(ARGS)
+
+soak: .venv/.ready  ## the long tests: those marked soak, and every property with many more examples
+	$(BIN)/python -m pytest -m "soak or hypothesis" --hypothesis-profile=soak $(ARGS)
+
+study: .venv/.ready  ## the evaluation (needs crew eval, which this version does not have yet)
+	@$(BIN)/crew eval --help >/dev/null 2>&1 || { echo "crew eval is not part of this version: no study was run" >&2; exit 2; }
+	$(BIN)/crew eval $(CREW) --arms all --planner embedded --seed 0 --out runs/study $(ARGS)
+
+clean:  ## remove .venv, caches and build output; recorded runs stay
+	rm -rf .venv build dist robot_crew.egg-info
+	rm -rf .mypy_cache .ruff_cache .pytest_cache .hypothesis .import_linter_cache .grimp_cache
+	find crew actors adapters contracts sim tests -name __pycache__ -type d -prune -exec rm -rf {} +
+
+.venv/.ready: pyproject.toml .ci/venv
+	@.ci/venv
