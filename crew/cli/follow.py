@@ -1,5 +1,6 @@
 """Publishes a request and follows its mission to the end."""
 
+import asyncio
 import secrets
 import sys
 from collections.abc import Callable
@@ -31,18 +32,39 @@ async def follow_request(
     """Publish a request on its key; return its last event.
 
     `answer` is asked about a question: yes, no, or None, which returns the question itself as the last event.
-    Raises BusError if nobody takes the request.
+    Raises BusError if nobody takes the request, or if the orchestrator is lost on the way.
     """
     request_id = secrets.token_hex(8)
     box = event_box(bus, keys)
+    lost = asyncio.Event()
+    watch = bus.watch_liveliness(keys.alive("orchestrator"), lambda _, alive: None if alive else lost.set())
     body = msgspec.json.encode({"text": text, "request_id": request_id})
     bus.put(keys.request, (body, "application/json"), qos=Qos.EVENT)
+    following = asyncio.create_task(_follow(bus, keys, box, request_id, listener, answer))
+    losing = asyncio.create_task(lost.wait())
+    try:
+        await asyncio.wait({following, losing}, return_when=asyncio.FIRST_COMPLETED)
+        if following.done():
+            return following.result()
+        raise BusError("the orchestrator is gone: what became of the mission is unknown; robots do what they declare")
+    finally:
+        watch.close()
+        following.cancel()
+        losing.cancel()
+
+
+async def _follow(
+    bus: Bus,
+    keys: Keys,
+    box: Events[Letter[MissionEvent]],
+    request_id: str,
+    listener: Listener,
+    answer: Callable[[MissionEvent], bool | None],
+) -> MissionEvent:
     heard = False
     while True:
         if not heard and not await WALL.race(box.changed(), ANSWER_S):
-            raise BusError(
-                f"nobody took the request within {ANSWER_S:g} s; are gateway and orchestrator up? (crew status)"
-            )
+            raise BusError(f"nobody took the request within {ANSWER_S:g} s; is the gateway up? (crew status)")
         await box.changed()
         for letter in box.take():
             event = letter.message

@@ -31,7 +31,8 @@ def run_runs(folder: Path, as_json: bool) -> int:
         say(f"no runs in {folder.absolute()}; make one with crew demo, or name another folder with --runs")
         return 0
     for line in table(
-        {"run": s.run, "records": str(s.records), "outcome": s.outcome, "request": "; ".join(s.requests)[:60]} for s in found
+        {"run": s.run, "records": str(s.records), "outcome": s.outcome, "request": "; ".join(s.requests)[:60]}
+        for s in found
     ):
         say(line)
     return 0

@@ -3,7 +3,7 @@
 import asyncio
 import os
 from collections.abc import AsyncIterator, Coroutine
-from contextlib import asynccontextmanager
+from contextlib import AsyncExitStack, asynccontextmanager
 from typing import Any
 
 from crew.bus.port import Bus
@@ -43,14 +43,16 @@ def find_running(crew: str) -> Running:
 async def operator(crew: str) -> AsyncIterator[tuple[Bus, Keys, Running]]:
     """A session with a running crew. Raises UsageError or BusError in plain words."""
     running = find_running(crew)
-    try:
-        async with ZenohBus("operator", [running.endpoint], timeout_s=CONNECT_S) as bus:
-            yield bus, Keys(running.crew), running
-    except BusError as error:
-        raise BusError(
-            f"crew {running.crew} (pid {running.pid}) has no reachable bus on {running.endpoint}: {error}; "
-            f"end it with Ctrl-C and bring it up again; its logs are in {running.run_folder}/logs"
-        ) from error
+    bus = ZenohBus("operator", [running.endpoint], timeout_s=CONNECT_S)
+    async with AsyncExitStack() as stack:
+        try:
+            await stack.enter_async_context(bus)
+        except BusError as error:
+            raise BusError(
+                f"crew {running.crew} (pid {running.pid}) has no reachable bus on {running.endpoint}: {error}; "
+                f"end it with Ctrl-C and bring it up again; its logs are in {running.run_folder}/logs"
+            ) from error
+        yield bus, Keys(running.crew), running
 
 
 def run(work: Coroutine[Any, Any, int]) -> int:

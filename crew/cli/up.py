@@ -9,6 +9,8 @@ from crew.cli.output import coloured, say, say_event
 from crew.cli.session import home
 from crew.launch.live import UNSECURED, LiveCrew, live_crew
 from crew.launch.options import LaunchOptions
+from crew.mailbox import Events, Letter, letters
+from crew.messages import RobotEvent
 
 LOSS = {
     "orchestrator": "robots do what their skills declare for a lost orchestrator; missions are over",
@@ -37,6 +39,7 @@ async def _up(options: LaunchOptions) -> int:
             _introduce(crew, time.monotonic() - began)
             async with asyncio.TaskGroup() as group:
                 group.create_task(_show_missions(crew))
+                group.create_task(_show_robots(crew))
                 group.create_task(losses.watch(crew))
     except asyncio.CancelledError:
         say("\nthe crew is down")
@@ -65,6 +68,16 @@ class Losses:
 async def _show_missions(crew: LiveCrew) -> None:
     async for letter in event_box(crew.bus, crew.keys):
         say_event(letter.message, with_mission=True)
+
+
+async def _show_robots(crew: LiveCrew) -> None:
+    """What robots tell of themselves: stops, releases, a lost orchestrator."""
+    box: Events[Letter[RobotEvent]] = Events(letters(RobotEvent), capacity=1024, on_lost=lambda _: None)
+    crew.bus.subscribe(crew.keys.robot_events, box)
+    async for letter in box:
+        event = letter.message
+        if not event.mission:
+            say(f"{event.robot}: {event.what.replace('_', ' ')} {event.detail}".rstrip())
 
 
 def _introduce(crew: LiveCrew, ready_s: float) -> None:

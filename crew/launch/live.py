@@ -71,8 +71,17 @@ async def live_crew(options: LaunchOptions, home: Home) -> AsyncIterator[LiveCre
         await runner.start(children, ready_timeout_s=READY_S)
         bus = await stack.enter_async_context(ZenohBus("operator", [router]))
         crew = LiveCrew(rules, run_folder, router, bus, exits, runner.pids)
-        crew.status = await await_ready(bus, crew.keys, [r.name for r in rules.crew.robots], timeout_s=READY_S)
+        names = [r.name for r in rules.crew.robots]
+        crew.status = await await_ready(bus, crew.keys, names, timeout_s=READY_S, died=lambda: _first_exit(exits))
         yield crew
+
+
+def _first_exit(exits: "asyncio.Queue[Exit]") -> str:
+    """Who has died already, in a sentence; empty if nobody has."""
+    if exits.empty():
+        return ""
+    first = exits.get_nowait()
+    return f"{first.name} died with code {first.code} while the crew came up: {first.said}"
 
 
 def new_run_folder(runs: Path, crew: str) -> Path:

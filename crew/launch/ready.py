@@ -1,10 +1,10 @@
 """Ready is a round trip: the orchestrator answers with a state of every robot, heard through the real keys."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 from crew.bus.port import Bus
 from crew.clock import WALL
-from crew.errors import BusError
+from crew.errors import BusError, CrewError
 from crew.keys import Keys
 from crew.messages import CrewStatus
 from crew.wire import decode
@@ -23,12 +23,19 @@ async def query_status(bus: Bus, keys: Keys, *, timeout_s: float) -> CrewStatus 
     return None
 
 
-async def await_ready(bus: Bus, keys: Keys, robots: Sequence[str], *, timeout_s: float) -> CrewStatus:
-    """The first status in which every robot is there, or says why it is not. Raises BusError after `timeout_s`."""
+async def await_ready(
+    bus: Bus, keys: Keys, robots: Sequence[str], *, timeout_s: float, died: Callable[[], str]
+) -> CrewStatus:
+    """The first status in which every robot is there, or says why it is not.
+
+    Raises BusError after `timeout_s`, and CrewError at once when `died` names a process that is gone.
+    """
     began_ns = WALL.now_ns()
     status: CrewStatus | None = None
     while (spent_s := (WALL.now_ns() - began_ns) / 1e9) < timeout_s:
         status = await query_status(bus, keys, timeout_s=1.0) or status
+        if loss := died():
+            raise CrewError(loss)
         if status is not None:
             known = {r.robot: r.unavailable for r in status.robots}
             waiting = [r for r in robots if known.get(r, NOT_YET[1]).startswith(NOT_YET)]
