@@ -59,7 +59,7 @@ class Mention(msgspec.Struct, frozen=True, kw_only=True):
     """A class word that asks for all of its members."""
     means: tuple[StepRef, ...] = ()
     governor: int | None = None
-    """Index of the action that this mention belongs to."""
+    """Index of the action that this mention belongs to; for an action, of the earlier one whose subject it shares."""
     bare: bool = False
     """An excluded action without an entity of its own: the skill itself is excluded."""
     aside: bool = False
@@ -106,7 +106,8 @@ class Reading(msgspec.Struct, frozen=True, kw_only=True):
     def robots_of(self, action: Mention) -> tuple[Mention, ...]:
         """The robots that were named for an action."""
         index = self.mentions.index(action)
-        return tuple(m for m in self.wanted if m.kind in ROBOT_KINDS and m.governor == index)
+        named = tuple(m for m in self.wanted if m.kind in ROBOT_KINDS and m.governor == index)
+        return named or (() if action.governor is None else self.robots_of(self.mentions[action.governor]))
 
     @property
     def excluded_areas(self) -> tuple[Zone, ...]:

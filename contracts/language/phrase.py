@@ -2,6 +2,7 @@
 
 from itertools import pairwise
 
+from crew.contracts.language.lexicon import Lexicon
 from crew.contracts.language.mention import Direction, MentionKind
 from crew.contracts.language.piece import PREPOSITIONS, Piece, before, behind
 from crew.contracts.language.tokens import Token
@@ -38,12 +39,16 @@ def directions(pieces: list[Piece], tokens: list[Token]) -> None:
             piece.name = " ".join(t.norm for t in tokens[piece.first : piece.after])
 
 
-def loose_ends(pieces: list[Piece]) -> None:
+def loose_ends(pieces: list[Piece], lexicon: Lexicon) -> None:
     """Prepositions and quantifiers that fit nothing they stand before are unread."""
+    sweeping = False
     for at, piece in enumerate(pieces):
+        if piece.is_action:
+            sweeping = any((ref.contract, ref.step) in lexicon.zone_steps for ref in piece.means)
         following = behind(pieces, at, _NO_ARTICLE | {Role.OF, Role.FILLER})
         kind = following.kind if following is not None else None
-        far = piece.role is Role.NEAR and not (following is not None and following.near_is_at)
+        beside = following is not None and following.near_is_at and not sweeping
+        far = piece.role is Role.NEAR and not beside
         if far or (piece.role is Role.OVER and kind is not MentionKind.ZONE):
             piece.become(Role.UNREAD)
         elif piece.role is Role.QUANTIFIER and kind is not MentionKind.ZONE:

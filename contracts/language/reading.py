@@ -25,7 +25,7 @@ def read_request(text: str, lexicon: Lexicon) -> Reading:
         why = f"{len(tokens)} words and marks; at most {MAX_TOKENS} are read"
         return _too_long(text, tokens[MAX_TOKENS].start, why)
     pieces = noun_phrases(Scanner(tokens, lexicon).scan())
-    loose_ends(pieces)
+    loose_ends(pieces, lexicon)
     _everything(pieces, lexicon)
     _first(pieces)
     participles(pieces)
@@ -134,11 +134,12 @@ def _clauses(reading: Reading) -> Iterator[str]:
     """One clause for all actions that were asked for, each with what belongs to it, in the order of the request."""
     clauses: list[list[str]] = [[]]
     for index, mention in enumerate(reading.mentions):
-        if not mention.positive or (mention.kind is not MentionKind.ACTION and mention.governor is not None):
+        belongs = mention.kind is not MentionKind.ACTION and mention.governor is not None
+        if not mention.positive or belongs:
             continue
         words = [mention.name]
         if mention.kind is MentionKind.ACTION:
-            words += [_shown(m) for m in reading.wanted if m.governor == index]
+            words += [_shown(m) for m in reading.wanted if m.governor == index and m.kind is not MentionKind.ACTION]
         clauses.append(words)
     said = ", ".join(" ".join(words) for words in clauses if words)
     if said:

@@ -140,6 +140,26 @@ def governors(pieces: list[Piece]) -> None:
             piece.governor = _governor_of_robot(pieces, at, last)
         elif piece.is_entity:
             piece.governor = last
+    _shared_subjects(pieces)
+
+
+def _shared_subjects(pieces: list[Piece]) -> None:
+    """In `the drone should search and land` the drone does both."""
+    earlier: Piece | None = None
+    for at, piece in enumerate(pieces):
+        if piece.role is Role.PUNCTUATION and piece.norm not in (",", ":", "-"):
+            earlier = None
+        if not piece.is_action:
+            continue
+        link = before(pieces, at)
+        robots = [p for p in pieces if p.is_robot and p.governor is piece]
+        joined = link is not None and link.role in (Role.AND, Role.THEN)
+        if any(p.first < piece.first for p in robots):
+            earlier = piece
+        elif robots:
+            earlier = None
+        elif joined:
+            piece.governor = earlier
 
 
 def _governor_of_robot(pieces: list[Piece], at: int, last: Piece | None) -> Piece | None:

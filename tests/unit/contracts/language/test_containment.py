@@ -54,6 +54,8 @@ REFUSED = [
     ("search the area at 4 m", search(altitude=5.0), Code.NOT_REQUESTED, "steps[0].args.altitude"),
     ("search the area and send the drone to the victim", search(send=True), Code.NOT_REQUESTED, "steps[3].robot"),
     ("send the rover to the victim, then search the area", search(send=True), Code.NOT_REQUESTED, "steps[1]"),
+    ("iris should find the victim and drive to the victim", search(send=True), Code.NOT_REQUESTED, "steps[3].robot"),
+    ("iris should take off, search and go to the victim", search(send=True), Code.NOT_REQUESTED, "steps[3].robot"),
     ("stop the rover", Plan("abort", (STOP, LAND)), Code.NOT_REQUESTED, "steps[1]"),
     ("abort", Plan("abort", (LAND,)), Code.REQUEST_DROPPED, "steps"),
     ("search the area and send the rover to the victim", search(), Code.REQUEST_DROPPED, "request"),
