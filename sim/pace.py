@@ -29,7 +29,7 @@ class Lockstep:
 
     async def wait(self, number: int) -> None:
         """Return when nobody is still working on slice `number`."""
-        self._hear()
+        self._hear(number)
         while waiting := [m for m in self.members.values() if m.slice < number]:
             oldest_ns = min(m.heard_ns for m in waiting)
             left_s = SILENT_S - (WALL.now_ns() - oldest_ns) / 1e9
@@ -37,20 +37,28 @@ class Lockstep:
                 self._drop_silent(number)
                 continue
             await WALL.race(self._acks.changed(), left_s)
-            self._hear()
+            self._hear(number)
 
     @property
     def idle(self) -> bool:
         """Nobody has anything to do: the simulation need not run ahead of the wall's clock."""
         return all(m.idle for m in self.members.values())
 
-    def _hear(self) -> None:
+    def _hear(self, number: int) -> None:
         while letters := self._acks.take():
             for letter in letters:
-                ack = letter.message
-                known = self.members.get(ack.name)
-                done = ack.slice if not ack.holding else (known.slice if known else ack.slice - 1)
-                self.members[ack.name] = Member(done, ack.datagrams, ack.idle, WALL.now_ns())
+                self._note(letter.message, number)
+
+    def _note(self, ack: ClockAck, number: int) -> None:
+        """Whoever has seen no tick yet takes part from the next one: the current one went out before it listened."""
+        known = self.members.get(ack.name)
+        if ack.slice < 0:
+            done = number
+        elif ack.holding:
+            done = known.slice if known else ack.slice - 1
+        else:
+            done = ack.slice
+        self.members[ack.name] = Member(done, ack.datagrams, ack.idle, WALL.now_ns())
 
     def _drop_silent(self, number: int) -> None:
         limit_ns = WALL.now_ns() - seconds_ns(SILENT_S)

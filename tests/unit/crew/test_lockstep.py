@@ -1,0 +1,179 @@
+"""The simulation waits for whoever works, never for whoever has not begun, and no longer than a second for the dead."""
+
+import asyncio
+from collections.abc import AsyncIterator, Awaitable
+from contextlib import AsyncExitStack
+
+import pytest
+
+from crew import lockstep as lockstep_module
+from crew.bus.fabric import MemoryFabric
+from crew.bus.memory import MemoryBus
+from crew.bus.port import Bus, Qos
+from crew.clock import WALL, SimClock
+from crew.keys import Keys
+from crew.lockstep import Participant
+from crew.mailbox import Events, Letter, letters
+from crew.messages import ClockAck, ClockTick
+from crew.sim import pace as pace_module
+from crew.sim.pace import Lockstep
+
+KEYS = Keys("lab")
+SLICE_NS = 50_000_000
+
+
+class Stage:
+    """A simulation's side and a participant's side, on one fabric."""
+
+    def __init__(self, fabric: MemoryFabric, sim: Bus, robot: Bus) -> None:
+        self._fabric, self.sim, self.robot = fabric, sim, robot
+        acks: Events[Letter[ClockAck]] = Events(letters(ClockAck), capacity=64, on_lost=lambda _: None)
+        sim.subscribe(KEYS.clock_acks, acks)
+        self.lockstep = Lockstep(acks)
+        self.clock = SimClock()
+        self.heard: Events[Letter[ClockAck]] = Events(letters(ClockAck), capacity=64, on_lost=lambda _: None)
+        sim.subscribe(KEYS.clock_acks, self.heard)
+
+    def tick(self, number: int, datagrams: int = 0) -> None:
+        now_ns = number * SLICE_NS
+        self.sim.put(KEYS.clock, ClockTick(slice=number, now_ns=now_ns, datagrams={"iris": datagrams}), qos=Qos.EVENT)
+
+    async def ack(self, number: int, name: str = "iris", *, holding: bool = False, idle: bool = True) -> None:
+        """Say so, and return when the simulation's side has it."""
+        message = ClockAck(name=name, slice=number, holding=holding, idle=idle)
+        self.robot.put(KEYS.clock_ack(name), message, qos=Qos.EVENT)
+        assert await asyncio.to_thread(self._fabric.settled)
+
+    async def next_ack(self) -> ClockAck:
+        async with asyncio.timeout(5.0):
+            return (await anext(self.heard)).message
+
+
+@pytest.fixture
+async def stage() -> AsyncIterator[Stage]:
+    with MemoryFabric() as fabric:
+        async with AsyncExitStack() as stack:
+            buses = [await stack.enter_async_context(MemoryBus(fabric)) for _ in range(2)]
+            yield Stage(fabric, *buses)
+
+
+async def within(work: Awaitable[object], seconds: float = 5.0) -> bool:
+    return await WALL.race(work, seconds)
+
+
+async def ends(task: "asyncio.Future[None]") -> None:
+    task.cancel()
+    await asyncio.gather(task, return_exceptions=True)
+
+
+async def test_nobody_is_waited_for_before_anybody_joined(stage: Stage) -> None:
+    assert await within(stage.lockstep.wait(1), 0.5)
+
+
+async def test_a_participant_that_joins_after_a_tick_went_out_does_not_hold_that_slice(stage: Stage) -> None:
+    follower = Participant(stage.robot, KEYS, "iris", stage.clock)
+    task = asyncio.ensure_future(follower.run())
+    await stage.next_ack()
+    assert await within(stage.lockstep.wait(4)), "the tick of slice 4 was sent before it listened"
+    waiting = asyncio.ensure_future(stage.lockstep.wait(5))
+    assert not await within(asyncio.shield(waiting), 0.1), "from the next slice on it takes part"
+    stage.tick(5)
+    assert await within(waiting)
+    assert stage.clock.now_ns() == 5 * SLICE_NS
+    await ends(task)
+
+
+async def test_a_participant_that_starts_anew_rejoins(stage: Stage) -> None:
+    await stage.ack(7)
+    assert await within(stage.lockstep.wait(7))
+    await stage.ack(-1)
+    assert await within(stage.lockstep.wait(8), 0.9), "its new life never heard slice 8"
+
+
+async def test_a_silent_participant_drops_out_and_comes_back_with_its_next_word(
+    stage: Stage, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(pace_module, "SILENT_S", 0.2)
+    await stage.ack(1)
+    assert await within(stage.lockstep.wait(1))
+    assert await within(stage.lockstep.wait(2))
+    assert stage.lockstep.dropped == 1
+    assert not stage.lockstep.members
+    await stage.ack(2)
+    assert await within(stage.lockstep.wait(2))
+    waiting = asyncio.ensure_future(stage.lockstep.wait(3))
+    assert not await within(asyncio.shield(waiting), 0.05)
+    await stage.ack(3)
+    assert await within(waiting)
+
+
+async def test_a_participant_that_holds_is_waited_for_longer_than_a_silent_one(
+    stage: Stage, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(pace_module, "SILENT_S", 0.3)
+    await stage.ack(1)
+    assert await within(stage.lockstep.wait(1))
+    waiting = asyncio.ensure_future(stage.lockstep.wait(2))
+    for _ in range(6):
+        await stage.ack(2, holding=True)
+        assert not await within(asyncio.shield(waiting), 0.1)
+    await stage.ack(2)
+    assert await within(waiting)
+    assert stage.lockstep.dropped == 0
+
+
+async def test_the_simulation_hurries_as_long_as_one_participant_works(stage: Stage) -> None:
+    await stage.ack(1, "iris", idle=True)
+    await stage.ack(1, "tb3", idle=False)
+    assert await within(stage.lockstep.wait(1))
+    assert not stage.lockstep.idle
+    await stage.ack(2, "iris", idle=True)
+    await stage.ack(2, "tb3", idle=True)
+    assert await within(stage.lockstep.wait(2))
+    assert stage.lockstep.idle
+
+
+async def test_a_slice_is_withheld_while_work_is_in_flight(stage: Stage) -> None:
+    task = asyncio.ensure_future(Participant(stage.robot, KEYS, "iris", stage.clock, idle=lambda: True).run())
+    assert (await stage.next_ack()).slice == -1
+    with stage.clock.busy():
+        stage.tick(1)
+        while not (held := await stage.next_ack()).holding:
+            assert held.slice == -1
+        assert not held.idle, "whoever holds a slice is not idle"
+    while (done := await stage.next_ack()).holding:
+        pass
+    assert done.slice == 1
+    assert done.idle
+    await ends(task)
+
+
+async def test_time_waits_for_datagrams_that_the_simulation_has_sent(stage: Stage) -> None:
+    received = 0
+    follower = Participant(stage.robot, KEYS, "iris", stage.clock, counts=lambda: (9, received))
+    task = asyncio.ensure_future(follower.run())
+    await stage.next_ack()
+    stage.tick(1, datagrams=3)
+    while not (await stage.next_ack()).holding:
+        pass
+    assert stage.clock.now_ns() == 0, "telemetry that is on its way arrives before time moves"
+    received = 3
+    follower.notice_traffic()
+    while (done := await stage.next_ack()).holding:
+        pass
+    assert (done.slice, done.datagrams) == (1, 9)
+    assert stage.clock.now_ns() == SLICE_NS
+    await ends(task)
+
+
+async def test_a_lost_datagram_delays_one_slice_and_no_other(stage: Stage, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(lockstep_module, "LOST_AFTER_S", 0.1)
+    task = asyncio.ensure_future(Participant(stage.robot, KEYS, "iris", stage.clock, counts=lambda: (0, 2)).run())
+    await stage.next_ack()
+    for number in (1, 2):
+        stage.tick(number, datagrams=5)
+        while (done := await stage.next_ack()).slice < number or done.holding:
+            pass
+        monkeypatch.setattr(lockstep_module, "LOST_AFTER_S", 60.0)
+    assert stage.clock.now_ns() == 2 * SLICE_NS
+    await ends(task)
