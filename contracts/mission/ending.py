@@ -128,11 +128,11 @@ Handler = Callable[[MissionState, Any, Mapping[str, Contract]], Result]
 _HANDLERS: tuple[tuple[type, Handler], ...] = (
     (ev.SafeHolds, _safe_holds),
     (ev.Decided, _decided),
-    (ev.Accepted, accept),
     (ev.Outcome, _outcome),
     (ev.EffectSeen, _effect_seen),
 )
 ENDING: dict[tuple[Phase, type], tuple[Handler, tuple[Phase, ...]]] = {
-    (phase, event): (handler, (phase, ended)) for phase, ended in _ENDED.items() for event, handler in _HANDLERS
+    **{(phase, event): (handler, (phase, ended)) for phase, ended in _ENDED.items() for event, handler in _HANDLERS},
+    **{(phase, ev.Accepted): (accept, (phase,)) for phase in _ENDED},
 }
 """The rows of the table for the two phases of an early end."""
