@@ -1,0 +1,14 @@
+"""What may not stand in a committed file: places on somebody's machine, and hosts of package registries."""
+
+from tests.unit.project.tree import ROOT, committed
+
+HOMES = ("/ro" + "ot/", "/wo" + "rk/", "/ho" + "me/", "/Us" + "ers/")
+HOSTS = ("pypi" + ".org", "pythonhosted" + ".org", "npmjs" + ".", "crates" + ".io", "deb.debian" + ".org")
+TEXT = {".py", ".md", ".toml", ".yaml", ".yml", ".json", ".txt", ".xml", ".mmd", ".sh", ""}
+
+
+def test_no_place_of_one_machine_and_no_registry() -> None:
+    for path in committed():
+        if path.suffix in TEXT and (ROOT / path).is_file():
+            text = (ROOT / path).read_text(encoding="utf-8")
+            assert [word for word in (*HOMES, *HOSTS) if word in text] == [], path
