@@ -24,7 +24,7 @@ from crew.library import load_rules
 
 NOW_NS = 1_000 * SECOND_NS
 MISSION = "m1"
-BASE = Point(-4.0, -4.0)
+START = Point(-4.0, -4.0)
 SEEN = Point(5.0, 5.0)
 
 SEARCH_AND_SEND = "search the area and send the rover to whoever you find"
@@ -78,7 +78,7 @@ def iris(*, airborne: bool = False, swept: bool = False, at_ns: int = NOW_NS, **
     return robot("iris", QUADCOPTER.digest, at_ns, fluents, **changes)
 
 
-def tb3(*, at: Point = BASE, moving: bool = False, at_ns: int = NOW_NS, **changes: Any) -> RobotState:
+def tb3(*, at: Point = START, moving: bool = False, at_ns: int = NOW_NS, **changes: Any) -> RobotState:
     """The rover as last heard."""
     return robot("tb3", ROVER.digest, at_ns, {"at": at, "moving": moving, "battery": 90.0}, **changes)
 
