@@ -40,6 +40,8 @@ class RobotState(Message, frozen=True, kw_only=True):
     """`<mission>/<sequence>` of the dispatch that it carries out."""
     epoch: int = 0
     """The newest orchestrator's epoch that it has heard."""
+    dropped: int = 0
+    """Messages to it that it dropped: unreadable, too late, or too many at once."""
     fluents: Mapping[str, FluentValue] = {}
     stamps_ns: Mapping[str, int] = {}
 

@@ -110,7 +110,7 @@ class Orchestrator:
         bus.on_sample(keys.stop, lambda sample: _hand_over(loop, self._stops, sample))
         bus.watch_liveliness(keys.all_alive, self._on_liveliness)
         bus.queryable(keys.status, self._status)
-        self._boxes += [states, cards]
+        self._boxes += [states, cards, self._desk.box]
         async with asyncio.TaskGroup() as self._group:
             self._group.create_task(self._hear_states(states))
             self._group.create_task(self._hear_cards(cards))
@@ -228,6 +228,7 @@ class Orchestrator:
         dropped: Counter[str] = Counter(self._lost_messages)
         for box in self._boxes:
             dropped.update({str(reason): count for reason, count in box.refusals.items()})
+        dropped.update(self._world.dropped())
         return CrewStatus(
             crew=self._rules.crew.name,
             run=self._run,

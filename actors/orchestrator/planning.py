@@ -42,10 +42,10 @@ class PlannerDesk:
         self._bus, self._keys, self._clock, self._rules = bus, keys, clock, rules
         self._world, self._leases, self._feed, self._spawn = world, leases, feed, spawn
         self._open: dict[tuple[str, int], asyncio.Future[PlannerProposal]] = {}
-        self._box: Events[Letter[PlannerProposal]] = Events(
+        self.box: Events[Letter[PlannerProposal]] = Events(
             letters(PlannerProposal), capacity=64, on_lost=lambda _: None
         )
-        bus.subscribe(keys.planner_proposal, self._box)
+        bus.subscribe(keys.planner_proposal, self.box)
 
     def ask(self, mission: MissionState, effect: ev.AskPlanner) -> None:
         """Ask for a plan; the answer, or its absence, comes back as an event."""
@@ -53,7 +53,7 @@ class PlannerDesk:
 
     async def run(self) -> None:
         """Hear proposals until cancelled."""
-        async for letter in self._box:
+        async for letter in self.box:
             future = self._open.get((letter.message.mission, letter.message.attempt))
             if future is not None and not future.done():
                 future.set_result(letter.message)

@@ -85,6 +85,10 @@ class WorldFold:
         """Whether no robot that is heard says that its stop is latched."""
         return not any(s.stopped for name, s in self._states.items() if not self.lost(name))
 
+    def dropped(self) -> dict[str, int]:
+        """How many messages each robot says that it dropped; robots that dropped none are left out."""
+        return {f"by_{name}": s.dropped for name, s in self._states.items() if s.dropped}
+
     def not_still(self) -> list[str]:
         """Robots that have not confirmed standing still: treat them as still moving."""
         return [n for n in sorted(self._names) if self.lost(n) or not self._states[n].still]

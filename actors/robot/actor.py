@@ -84,6 +84,12 @@ class RobotActor:
         """Empty if the robot can take a skill, otherwise the reason in a few words."""
         return self._problem or self._adapter.health()
 
+    @property
+    def dropped(self) -> int:
+        """Messages that were dropped since this robot began: unreadable, too late, or too many at once."""
+        unreadable = (self._commands.refusals, self._stop.refusals, self._watch.refusals)
+        return self.report.dropped_commands + sum(counter.total() for counter in unreadable)
+
     def behaviour(self, what: str) -> str:
         """What the running skill declares for `on_stop` or `on_link_loss`; the kind's own when nothing runs."""
         holder = self._skill or self.kind

@@ -1,5 +1,6 @@
 """Losing the orchestrator: its token goes, or its heartbeat falls silent. Then the declared behaviour runs."""
 
+from collections import Counter
 from typing import TYPE_CHECKING
 
 from crew.bus.port import Bus
@@ -7,6 +8,7 @@ from crew.clock import WALL, seconds_ns
 from crew.keys import Keys
 from crew.mailbox import KeepLatest, Letter, letters
 from crew.messages import Heartbeat
+from crew.wire import Refusal
 
 if TYPE_CHECKING:
     from crew.actors.robot.actor import RobotActor
@@ -30,6 +32,11 @@ class OrchestratorWatch:
         ]
         self.acting = False
         """The declared behaviour of a lost orchestrator is under way."""
+
+    @property
+    def refusals(self) -> Counter[Refusal]:
+        """Unreadable heartbeats, by reason."""
+        return self._beats.refusals
 
     async def run(self) -> None:
         """Watch until cancelled. A lost orchestrator is acted on once; it may come back."""

@@ -64,6 +64,7 @@ class Reporter:
                 still=self.still,
                 running=actor.running,
                 epoch=actor.admission.epoch,
+                dropped=actor.dropped,
                 fluents={name: reading.value for name, reading in readings.items()},
                 stamps_ns={name: reading.stamp_ns for name, reading in readings.items()},
             )
@@ -96,6 +97,11 @@ class Reporter:
         """A command that never reached the actor: `full`, `stale` or `closed`. May be called from any thread."""
         self._dropped[why] += 1
         self._put("dropped", "", 0, why, f"{self._dropped[why]} commands so far")
+
+    @property
+    def dropped_commands(self) -> int:
+        """Commands that never reached the actor."""
+        return self._dropped.total()
 
     def snapshot(self) -> Snapshot:
         """The robot's own view of itself, for checking effects."""

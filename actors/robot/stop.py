@@ -1,6 +1,7 @@
 """Stop and reset of one robot. The stop acts in the bus's own thread, past the event loop; release is signed."""
 
 import asyncio
+from collections import Counter
 from typing import TYPE_CHECKING
 
 from crew.adapter import Adapter
@@ -9,6 +10,7 @@ from crew.keys import Keys
 from crew.mailbox import Events, Letter, letters
 from crew.messages import RESET, Reset
 from crew.signing import verify
+from crew.wire import Refusal
 
 if TYPE_CHECKING:
     from crew.actors.robot.actor import RobotActor
@@ -27,6 +29,11 @@ class StopSwitch:
         self._declared = [bus.on_sample(keys.stop, self._on_stop), bus.subscribe(keys.reset, self._resets)]
         self.acting = False
         """The declared behaviour of a stop is under way."""
+
+    @property
+    def refusals(self) -> Counter[Refusal]:
+        """Unreadable resets, by reason."""
+        return self._resets.refusals
 
     async def run(self) -> None:
         """Carry out declared behaviours after a stop, and judge resets, until cancelled."""

@@ -1,0 +1,238 @@
+"""Stop and loss in each phase of a skill: the robot does what was declared, says so once, and serves on after."""
+
+import asyncio
+from collections.abc import AsyncIterator
+from typing import Any
+
+import pytest
+
+from crew.actors.robot import lost
+from crew.bus.port import Qos
+from crew.errors import AdapterError
+from tests.unit.actors.stage import RobotStage, robot_stage
+
+
+@pytest.fixture
+async def stage() -> AsyncIterator[RobotStage]:
+    async with robot_stage() as stage:
+        await stage.orchestrator_lives()
+        yield stage
+
+
+async def stopped(stage: RobotStage) -> None:
+    await stage.until(lambda: any(d.startswith("safe:") for d in stage.adapter.did), "it makes itself safe")
+    await stage.settle()
+
+
+async def test_a_stop_while_idle_latches_and_makes_safe(stage: RobotStage) -> None:
+    stage.stop()
+    await stopped(stage)
+    assert stage.adapter.did == ["halt", "safe:stop"]
+    assert stage.adapter.latched
+    assert stage.last("stopped").code == "stopped"
+    await stage.until(lambda: stage.states[-1].stopped, "its state says so")
+
+
+async def test_a_stop_while_driving_ends_the_skill_once(stage: RobotStage) -> None:
+    await stage.started()
+    stage.stop()
+    await stopped(stage)
+    assert stage.adapter.did == ["navigate_to", "halt", "safe:stop"]
+    assert [(e.what, e.code) for e in stage.events if e.mission] == [("accepted", ""), ("cancelled", "stopped")]
+
+
+async def test_a_stop_while_the_effect_is_awaited_ends_the_skill_once(stage: RobotStage) -> None:
+    await stage.started()
+    stage.adapter.finish.set()
+    await stage.settle()
+    assert stage.actor.running
+    stage.stop()
+    await stopped(stage)
+    assert [e.what for e in stage.events if e.mission] == ["accepted", "cancelled"]
+    assert stage.adapter.did[-1] == "safe:stop"
+
+
+async def test_a_stop_while_a_cancel_brakes_still_latches_and_reports_once(stage: RobotStage) -> None:
+    await stage.started()
+    stage.cancel()
+    stage.stop()
+    await stopped(stage)
+    assert stage.adapter.latched
+    assert stage.whats.count("cancelled") == 1
+
+
+async def test_a_stop_halts_while_the_loop_is_blocked(stage: RobotStage) -> None:
+    await stage.started()
+    stage.stop()
+    deadline = asyncio.get_running_loop().time() + 2.0
+    while "halt" not in stage.adapter.did and asyncio.get_running_loop().time() < deadline:
+        pass  # the robot's loop is this one: nothing of it runs meanwhile
+    assert "halt" in stage.adapter.did
+    await stopped(stage)
+
+
+@pytest.mark.parametrize("body", [(b"", ""), (b"\xff\xfe", "text/plain"), (b"\x00" * 70_000, "crew.stop/99")])
+async def test_anything_on_the_stop_key_stops(stage: RobotStage, body: tuple[bytes, str]) -> None:
+    stage.bus.put(stage.keys.stop, body, qos=Qos.STOP)
+    await stopped(stage)
+    assert stage.adapter.latched
+
+
+async def test_while_stopped_nothing_is_taken(stage: RobotStage) -> None:
+    stage.stop()
+    await stopped(stage)
+    stage.send(stage.dispatch())
+    assert (await stage.heard("refused")).code == "stopped"
+    assert "navigate_to" not in stage.adapter.did
+
+
+async def test_a_failed_safe_behaviour_is_told_and_the_robot_serves_on(stage: RobotStage) -> None:
+    stage.adapter.deaf = AdapterError("tb3: brake broken", code="still_moving")
+    stage.stop()
+    failed = await stage.heard("safe_failed")
+    assert (failed.code, failed.detail) == ("still_moving", "stop: tb3: brake broken")
+    stage.adapter.deaf = None
+    await stage.settle()
+    stage.reset()
+    await stage.heard("released")
+
+
+async def test_a_signed_reset_releases_and_work_goes_on(stage: RobotStage) -> None:
+    stage.stop()
+    await stopped(stage)
+    stage.reset()
+    assert "operator" in (await stage.heard("released")).detail
+    assert not stage.adapter.latched
+    await stage.started()
+
+
+@pytest.mark.parametrize(
+    ("changes", "why"),
+    [
+        ({"signature": b""}, "signature"),
+        ({"signature": b"\x01" * 64}, "signature"),
+        ({"targets": ("iris",)}, "not among the targets"),
+        ({"targets": ()}, "not among the targets"),
+        ({"epoch": 2}, "epoch"),
+        ({"epoch": 0}, "epoch"),
+    ],
+)
+async def test_a_reset_that_does_not_count_is_refused_with_its_reason(
+    stage: RobotStage, changes: dict[str, Any], why: str
+) -> None:
+    stage.stop()
+    await stopped(stage)
+    stage.reset(**changes)
+    assert why in (await stage.heard("reset_refused")).detail
+    assert stage.adapter.latched
+
+
+async def test_a_reset_counts_once(stage: RobotStage) -> None:
+    stage.stop()
+    await stopped(stage)
+    used = stage.reset()
+    await stage.heard("released")
+    stage.stop()
+    await stage.until(lambda: stage.adapter.did.count("safe:stop") == 2, "stopped again")
+    await stage.settle()
+    stage.bus.put(stage.keys.reset, used, qos=Qos.STOP)
+    assert "used before" in (await stage.heard("reset_refused")).detail
+    assert stage.adapter.latched
+
+
+async def test_a_refused_reset_does_not_use_up_its_nonce(stage: RobotStage) -> None:
+    stage.stop()
+    await stopped(stage)
+    stage.reset(nonce="n1", signature=b"forged")
+    await stage.heard("reset_refused")
+    stage.reset(nonce="n1")
+    await stage.heard("released")
+
+
+async def test_a_reset_altered_under_way_is_refused(stage: RobotStage) -> None:
+    stage.stop()
+    await stopped(stage)
+    genuine = stage.reset(targets=("iris",))
+    await stage.heard("reset_refused")
+    count = stage.whats.count("reset_refused")
+    stage.reset(targets=("tb3",), nonce=genuine.nonce, signature=genuine.signature)
+    await stage.until(lambda: stage.whats.count("reset_refused") > count, "refused too")
+    assert stage.adapter.latched
+
+
+async def test_an_unreadable_reset_is_no_reset(stage: RobotStage) -> None:
+    stage.stop()
+    await stopped(stage)
+    stage.bus.put(stage.keys.reset, (b"\xc1", "application/msgpack;crew.reset/1"), qos=Qos.STOP)
+    await stage.settle()
+    assert stage.adapter.latched
+
+
+async def test_a_lost_orchestrator_ends_the_skill_and_makes_safe_once(stage: RobotStage) -> None:
+    await stage.started()
+    assert stage.token is not None
+    stage.token.close()
+    lost_event = await stage.heard("orchestrator_lost")
+    assert "token" in lost_event.detail
+    await stopped(stage)
+    assert [(e.what, e.code) for e in stage.events if e.mission][1:] == [("cancelled", "orchestrator_lost")]
+    assert stage.adapter.did == ["navigate_to", "cancel", "safe:stop"]
+    assert not stage.adapter.latched
+    await asyncio.sleep(0.3)
+    await stage.settle()
+    assert stage.whats.count("orchestrator_lost") == 1
+
+
+async def test_an_orchestrator_whose_loop_is_frozen_counts_as_lost(
+    stage: RobotStage, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(lost, "SILENT_S", 0.2)
+    await stage.started()
+    assert "no heartbeat" in (await stage.heard("orchestrator_lost")).detail
+    await stopped(stage)
+
+
+async def test_an_orchestrator_lost_while_idle_makes_the_robot_safe(stage: RobotStage) -> None:
+    assert stage.token is not None
+    stage.token.close()
+    await stage.heard("orchestrator_lost")
+    await stopped(stage)
+    assert stage.adapter.did == ["safe:stop"]
+
+
+async def test_an_orchestrator_lost_while_the_effect_is_awaited(stage: RobotStage) -> None:
+    await stage.started()
+    stage.adapter.finish.set()
+    await stage.settle()
+    assert stage.token is not None
+    stage.token.close()
+    await stopped(stage)
+    assert [(e.what, e.code) for e in stage.events if e.mission][1:] == [("cancelled", "orchestrator_lost")]
+
+
+async def test_an_orchestrator_that_comes_back_is_obeyed_and_missed_again(stage: RobotStage) -> None:
+    assert stage.token is not None
+    stage.token.close()
+    await stage.heard("orchestrator_lost")
+    await stopped(stage)
+    await stage.orchestrator_lives(epoch=2)
+    stage.send(stage.dispatch(epoch=2))
+    await stage.heard("accepted")
+    stage.token.close()
+    await stage.until(lambda: stage.whats.count("orchestrator_lost") == 2, "lost again")
+
+
+async def test_before_an_orchestrator_was_ever_heard_nothing_is_lost() -> None:
+    async with robot_stage() as stage:
+        await asyncio.sleep(0.3)
+        await stage.settle()
+        assert "orchestrator_lost" not in stage.whats
+
+
+async def test_a_stop_after_the_orchestrator_was_lost_still_latches(stage: RobotStage) -> None:
+    assert stage.token is not None
+    stage.token.close()
+    await stopped(stage)
+    stage.stop()
+    await stage.until(lambda: stage.adapter.latched, "latched")
+    await stage.heard("stopped")
