@@ -101,7 +101,14 @@ class Replay:
         elif self._rules is None:
             self._problem(row, "comes before the run's own record")
         else:
-            self._replay(row, record, self._rules)
+            self._try_replay(row, record, self._rules)
+
+    def _try_replay(self, row: Row, record: Record, rules: Rules) -> None:
+        """A journal that was tampered with may hold what the core rules out: that is a finding, not a crash."""
+        try:
+            self._replay(row, record, rules)
+        except Exception as error:
+            self._problem(row, f"it can't be replayed after what came before ({type(error).__name__} {error})".rstrip())
 
     def _begin(self, row: Row, record: RunRecord) -> None:
         try:
