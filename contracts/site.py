@@ -1,6 +1,7 @@
 """A crew and the site it works on, as data; and the rules that the gate reads."""
 
 from collections.abc import Mapping
+from functools import cached_property
 from typing import Any
 
 import msgspec
@@ -103,9 +104,12 @@ class Rules(msgspec.Struct, frozen=True, kw_only=True, dict=True):
     """By kind's name."""
     contracts: Mapping[str, Contract]
 
+    @cached_property
+    def _kind_by_robot(self) -> dict[str, Kind]:
+        return {r.name: self.kinds[r.kind] for r in self.crew.robots if r.kind in self.kinds}
+
     def kind_of(self, robot: str) -> Kind | None:
-        spec = self.crew.robot(robot)
-        return None if spec is None else self.kinds.get(spec.kind)
+        return self._kind_by_robot.get(robot)
 
     def fluent_of(self, robot: str, name: str) -> Fluent | None:
         kind = self.kind_of(robot)

@@ -108,8 +108,12 @@ class Skill(msgspec.Struct, frozen=True, kw_only=True, dict=True):
     def params(self) -> tuple[Param, ...]:
         return _params(self.args)
 
+    @cached_property
+    def _param_by_name(self) -> dict[str, Param]:
+        return {p.name: p for p in self.params}
+
     def param(self, name: str) -> Param | None:
-        return next((p for p in self.params if p.name == name), None)
+        return self._param_by_name.get(name)
 
 
 class Kind(msgspec.Struct, frozen=True, kw_only=True, dict=True):
@@ -124,11 +128,19 @@ class Kind(msgspec.Struct, frozen=True, kw_only=True, dict=True):
     idle_on_stop: str
     idle_on_link_loss: str
 
+    @cached_property
+    def _skill_by_name(self) -> dict[str, Skill]:
+        return {s.name: s for s in self.skills}
+
+    @cached_property
+    def _fluent_by_name(self) -> dict[str, Fluent]:
+        return {f.name: f for f in self.fluents}
+
     def skill(self, name: str) -> Skill | None:
-        return next((s for s in self.skills if s.name == name), None)
+        return self._skill_by_name.get(name)
 
     def fluent(self, name: str) -> Fluent | None:
-        return next((f for f in self.fluents if f.name == name), None)
+        return self._fluent_by_name.get(name)
 
     @cached_property
     def digest(self) -> str:

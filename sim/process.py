@@ -15,6 +15,8 @@ from crew.sim.spec import SimulationSpec
 from crew.sim.world import World
 
 SLICE_NS = 50_000_000
+AHEAD = 1
+"""Slices that the world may be ahead of the slowest participant: stepping and reacting then share the time."""
 TRUTH_EVERY = 2
 """Slices between two messages of truth."""
 
@@ -44,7 +46,7 @@ class Simulation:
             if self._speed:
                 await self._pace.wait(SLICE_NS / 1e9, self._speed)
                 continue
-            await self._lockstep.wait(number)
+            await self._lockstep.wait(number - AHEAD)
             await self._collect_datagrams()
             if self._lockstep.idle:
                 await self._pace.wait(SLICE_NS / 1e9, 1.0)

@@ -78,8 +78,8 @@ class Ledger:
         """The dispatch may be sent once this ticket is committed."""
         return self.write(IntentRecord(dispatch=dispatch))
 
-    def note(self, what: str, text: str) -> None:
-        self.write(NoteRecord(what=what, text=text))
+    def note(self, what: str, text: str) -> Ticket:
+        return self.write(NoteRecord(what=what, text=text))
 
     def digest(self, state: MissionState) -> str:
         """The state's digest, computed once for each state."""

@@ -110,9 +110,14 @@ class MavlinkAdapter:
             self._end_safe(run.permit)
 
     def halt(self) -> None:
-        """Latch, then stop: from any thread, at once, without the event loop. Again: nothing new happens."""
+        """Latch, then stop: from any thread, at once, without the event loop.
+
+        Again while latched: the stop is sent again to a vehicle that still moves, but never into its own landing.
+        """
         with self._latch.lock:
             if self._latch.latched:
+                if self._safe is None and not self._repeater.active and not self._still_since(self._halted_ns):
+                    self._send_stop()
                 return
             self._latch.set()
             self._halted_ns = self._clock.now_ns()
@@ -185,8 +190,8 @@ class MavlinkAdapter:
 
     # Runs.
 
-    def _run_for(self, permit: Permit) -> Run:
-        return Run(self._vehicle, permit, self._options.stall_s)
+    def _run_for(self, permit: Permit, *, fenced: bool = False) -> Run:
+        return Run(self._vehicle, permit, self._options.stall_s, fenced=fenced)
 
     def _begin(self, skill: str) -> Run:
         with self._latch.lock:
@@ -194,7 +199,8 @@ class MavlinkAdapter:
                 raise Latched(f"{self._config.robot}: {skill} not started: the stop is latched; reset the robot first")
             if self._run is not None or self._safe is not None:
                 raise AdapterError(f"{self._config.robot}: {skill} not started: busy", code="robot_busy")
-            self._run = self._run_for(Permit())
+            fenced = self._skills is not None and skill not in self._skills.unconditional
+            self._run = self._run_for(Permit(), fenced=fenced)
             return self._run
 
     def _begin_safe(self) -> Permit:

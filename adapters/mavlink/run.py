@@ -5,6 +5,7 @@ from collections.abc import Callable
 import msgspec
 
 from crew.adapters.mavlink.command import Command
+from crew.adapters.mavlink.fence import check_breach
 from crew.adapters.mavlink.flavours.flavour import Modes
 from crew.adapters.mavlink.vehicle import POLL_S, Vehicle, seconds_since
 from crew.adapters.mavlink.writer import Permit
@@ -32,8 +33,9 @@ class Expectation(msgspec.Struct):
 class Run:
     """What a skill holds while it runs."""
 
-    def __init__(self, vehicle: Vehicle, permit: Permit, stall_s: float) -> None:
+    def __init__(self, vehicle: Vehicle, permit: Permit, stall_s: float, *, fenced: bool) -> None:
         self.vehicle = vehicle
+        self._fenced = fenced
         self.permit = permit
         self.moved = False
         """Whether anything that causes motion was sent."""
@@ -50,10 +52,13 @@ class Run:
             self._expect(leads_to)
 
     def check(self) -> None:
-        """Raise why the run is over: stopped or cancelled, vehicle lost or rebooted, mode changed underneath."""
+        """Raise why the run is over: stopped or cancelled, vehicle lost, rebooted or out of the area, mode changed."""
         self.permit.check()
         if fault := self.vehicle.link_fault():
             raise AdapterError(f"{self.vehicle.config.robot}: {fault}", code=_fault_code(fault))
+        motion = self.vehicle.telemetry.motion
+        if self._fenced and motion is not None:
+            check_breach(self.vehicle.config, motion.value.x_m, motion.value.y_m)
         self._check_mode()
 
     async def until(self, done: Callable[[], bool], gap_m: Callable[[], float], what: str) -> None:

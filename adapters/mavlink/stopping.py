@@ -17,6 +17,11 @@ class StopRepeater:
         self._over = threading.Event()
         self._thread: threading.Thread | None = None
 
+    @property
+    def active(self) -> bool:
+        """Whether it is still repeating."""
+        return self._thread is not None and self._thread.is_alive() and not self._over.is_set()
+
     def start(self) -> None:
         """Begin, or begin again; returns at once."""
         self.finish()

@@ -22,7 +22,7 @@ _QOS: dict[Qos, dict[str, Any]] = {
     Qos.ACTUATION: {"congestion_control": _BLOCK, "priority": zenoh.Priority.REAL_TIME, "express": True},
     Qos.STOP: {"congestion_control": _BLOCK, "priority": zenoh.Priority.REAL_TIME, "express": True},
     Qos.STATE: {"congestion_control": _DROP, "priority": zenoh.Priority.DATA_HIGH, "express": False},
-    Qos.EVENT: {"congestion_control": _BLOCK, "priority": zenoh.Priority.DATA, "express": False},
+    Qos.EVENT: {"congestion_control": _BLOCK, "priority": zenoh.Priority.DATA, "express": True},
 }
 """Blocking and dropping samples never share a priority: they would share its queue."""
 

@@ -1,0 +1,5 @@
+"""`python -m crew`: the command line."""
+
+from crew.cli.main import main
+
+main()

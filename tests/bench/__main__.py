@@ -1,0 +1,108 @@
+"""Prints every figure that the project promises, with its target. Exit 1 if one is missed."""
+
+import os
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Callable, Iterator
+from statistics import median
+
+from tests.bench import decision, roundtrip, simulation
+
+CREW = [sys.executable, "-m", "crew"]
+
+
+def main() -> int:
+    """Run all, or the sections named on the command line."""
+    wanted = sys.argv[1:] or list(SECTIONS)
+    unknown = [name for name in wanted if name not in SECTIONS]
+    if unknown:
+        print(f"no section is called {', '.join(unknown)}; there are {', '.join(SECTIONS)}", file=sys.stderr)
+        return 2
+    missed = 0
+    for name in wanted:
+        for what, value, limit, unit, fine in SECTIONS[name]():
+            missed += not fine
+            print(
+                f"{'ok  ' if fine else 'MISS'}  {what:58} {value:9.2f} {unit:4} (target {limit:g} {unit})", flush=True
+            )
+    return 1 if missed else 0
+
+
+Row = tuple[str, float, float, str, bool]
+
+
+def at_most(what: str, value: float, limit: float, unit: str) -> Row:
+    return what, value, limit, unit, value <= limit
+
+
+def at_least(what: str, value: float, limit: float, unit: str) -> Row:
+    return what, value, limit, unit, value >= limit
+
+
+def decisions() -> Iterator[Row]:
+    """The gate and the journal's queue."""
+    times_us, commits_ms = decision.measure(4000)
+    yield at_most("gate decision appended to the journal's queue, p50", median(times_us), 50, "us")
+    yield at_most("  the same, p99", sorted(times_us)[int(len(times_us) * 0.99)], 1000, "us")
+    yield at_most("  commit of a record, p50 (apart)", median(commits_ms), 20, "ms")
+
+
+def round_trips() -> Iterator[Row]:
+    """A dispatch beside raw Zenoh."""
+    raw_us, dispatch_us = roundtrip.measure(1000)
+    yield at_most(
+        "dispatch to accepted / raw Zenoh through the router, p50", median(dispatch_us) / median(raw_us), 1.5, "x"
+    )
+    yield at_most("  raw Zenoh round trip, p50", median(raw_us), 5000, "us")
+    yield at_most("  dispatch to accepted, p50", median(dispatch_us), 5000, "us")
+
+
+def simulated() -> Iterator[Row]:
+    """The simulation alone."""
+    yield at_least("simulation, headless, both robots moving", simulation.measure(20.0), 20, "x")
+
+
+def command_line() -> Iterator[Row]:
+    """What a person waits for."""
+    yield at_most("crew --help, median of 7", median(_timed([*CREW, "--help"]) for _ in range(7)), 0.3, "s")
+    with tempfile.TemporaryDirectory() as folder:
+        environment = {**os.environ, "CREW_HOME": f"{folder}/home"}
+        up = [_ready_s(folder, environment) for _ in range(4)][1:]
+        yield at_most("crew up to ready, warm, median of 3", median(up), 3, "s")
+        demo = [*CREW, "demo", "--json", "--speed", "max", "--runs", f"{folder}/runs"]
+        walls = [_timed(demo, environment) for _ in range(3)]
+        yield at_most("crew demo --speed max, command to exit, median of 3", median(walls), 12, "s")
+
+
+def _timed(command: list[str], environment: dict[str, str] | None = None) -> float:
+    began = time.perf_counter()
+    subprocess.run(command, check=True, stdout=subprocess.DEVNULL, env=environment)
+    return time.perf_counter() - began
+
+
+def _ready_s(folder: str, environment: dict[str, str]) -> float:
+    """From the command to the line that says that the crew is up."""
+    began = time.perf_counter()
+    command = [*CREW, "up", "--port", "0", "--runs", f"{folder}/runs"]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env=environment) as process:
+        assert process.stdout is not None
+        for line in process.stdout:
+            if " is up after " in line:
+                break
+        ready_s = time.perf_counter() - began
+        process.terminate()
+        process.stdout.read()
+    return ready_s
+
+
+SECTIONS: dict[str, Callable[[], Iterator[Row]]] = {
+    "decisions": decisions,
+    "round_trips": round_trips,
+    "simulation": simulated,
+    "command_line": command_line,
+}
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,131 @@
+"""From a dispatch's put to the robot's accepted event, beside raw Zenoh through the same router, interleaved."""
+
+import asyncio
+import os
+import tempfile
+import threading
+import time
+from pathlib import Path
+
+import uvloop
+import zenoh
+
+from crew.bus.port import Qos
+from crew.bus.session import open_session
+from crew.bus.zenoh import ZenohBus
+from crew.contracts.plan import digest
+from crew.keys import Keys
+from crew.launch.table import free_tcp_port
+from crew.mailbox import Events, KeepLatest, Letter, letters
+from crew.messages import Dispatch, RobotCard, RobotEvent
+from crew.router import RouterSpec
+from crew.supervisor import Child, Supervisor
+from crew.wire import encode
+from tests.bench.raw_echo import ANSWER, ASK, EchoSpec
+from tests.bench.robot_child import ROBOT, IdleSpec
+
+KEYS = Keys("bench")
+WARM_UP = 50
+
+
+def measure(rounds: int) -> tuple[list[float], list[float]]:
+    """Round trips in microseconds: raw Zenoh, and dispatch to accepted."""
+    os.environ["PYTHONPATH"] = str(Path(__file__).parents[2])
+    with asyncio.Runner(loop_factory=uvloop.new_event_loop) as runner:
+        return runner.run(_measure(rounds))
+
+
+async def _measure(rounds: int) -> tuple[list[float], list[float]]:
+    router = f"tcp/127.0.0.1:{free_tcp_port()}"
+    children = [
+        Child(name="router", module="crew.router", spec=RouterSpec(router), last=True),
+        Child(name="echo", module="tests.bench.raw_echo", spec=EchoSpec(router)),
+        Child(name="robot", module="tests.bench.robot_child", spec=IdleSpec(router)),
+    ]
+    with tempfile.TemporaryDirectory() as folder:
+        async with Supervisor(Path(folder), on_exit=print) as supervisor:
+            await supervisor.start(children, ready_timeout_s=20.0)
+            async with ZenohBus("bench", [router]) as bus:
+                session = await asyncio.to_thread(open_session, "bench", [router])
+                try:
+                    return await _interleave(bus, RawPing(session), rounds)
+                finally:
+                    await asyncio.to_thread(session.close)
+
+
+class RawPing:
+    """One raw sample there and back; the clock stops in Zenoh's own callback."""
+
+    def __init__(self, session: zenoh.Session) -> None:
+        self._publisher = session.declare_publisher(
+            ASK, congestion_control=zenoh.CongestionControl.BLOCK, priority=zenoh.Priority.REAL_TIME, express=True
+        )
+        self._back = threading.Event()
+        self._ended_ns = 0
+        session.declare_subscriber(ANSWER, self._answered)
+
+    def ping(self, payload: bytes) -> float:
+        """Microseconds."""
+        self._back.clear()
+        began_ns = time.perf_counter_ns()
+        self._publisher.put(payload)
+        if not self._back.wait(2.0):
+            raise RuntimeError("the raw echo did not answer within 2 s")
+        return (self._ended_ns - began_ns) / 1000
+
+    def _answered(self, sample: zenoh.Sample) -> None:
+        self._ended_ns = time.perf_counter_ns()
+        self._back.set()
+
+
+async def _interleave(bus: ZenohBus, raw: RawPing, rounds: int) -> tuple[list[float], list[float]]:
+    cards: KeepLatest[Letter[RobotCard]] = KeepLatest(letters(RobotCard))
+    events: Events[Letter[RobotEvent]] = Events(letters(RobotEvent), capacity=1024, on_lost=print)
+    bus.subscribe(KEYS.robot_cards, cards)
+    bus.subscribe(KEYS.robot_events, events)
+    await cards.changed()
+    boot = cards.take()[0].message.boot_id
+    publisher = bus.publisher(KEYS.act(ROBOT, "stop"), qos=Qos.ACTUATION)
+    payload = encode(_dispatch(1, boot))[0]
+    floors, trips = [], []
+    for number in range(1, rounds + WARM_UP + 1):
+        floors.append(await asyncio.to_thread(raw.ping, payload))
+        began_ns = time.perf_counter_ns()
+        publisher.put(_dispatch(number, boot))
+        accepted_ns = await _accepted(events, number)
+        trips.append((accepted_ns - began_ns) / 1000)
+    return floors[WARM_UP:], trips[WARM_UP:]
+
+
+async def _accepted(events: Events[Letter[RobotEvent]], number: int) -> int:
+    """When the accepted event was in hand; returns once the dispatch has ended."""
+    accepted_ns = 0
+    async for letter in events:
+        event = letter.message
+        if event.sequence == number and event.what == "accepted":
+            accepted_ns = time.perf_counter_ns()
+        elif event.sequence == number and event.what == "succeeded":
+            return accepted_ns
+        elif event.mission:
+            raise RuntimeError(f"the robot answered {event.what}: {event.detail}")
+    raise RuntimeError("the mailbox was closed")
+
+
+def _dispatch(number: int, boot: str) -> Dispatch:
+    now_ns = time.monotonic_ns()
+    return Dispatch(
+        mission="bench",
+        step="safe:responder",
+        purpose="safe",
+        sequence=number,
+        robot=ROBOT,
+        skill="stop",
+        epoch=1,
+        lease="bench",
+        boot_id=boot,
+        issued_ns=now_ns,
+        expires_ns=now_ns + 2_000_000_000,
+        args_digest=digest({}),
+        plan_digest="0" * 64,
+        contract_digest="0" * 64,
+    )
