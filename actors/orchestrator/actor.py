@@ -126,11 +126,12 @@ class Orchestrator:
 
     async def _hear_states(self, box: KeepLatest[Letter[RobotState]]) -> None:
         async for letter in box:
-            self._world.take_state(letter.message, self._clock.now_ns())
+            if self._own(letter, letter.message.robot):
+                self._world.take_state(letter.message, self._clock.now_ns())
 
     async def _hear_cards(self, box: KeepLatest[Letter[RobotCard]]) -> None:
         async for letter in box:
-            if self._world.take_card(letter.message):
+            if self._own(letter, letter.message.robot) and self._world.take_card(letter.message):
                 robot = letter.message.robot
                 self._ledger.note("reboot", f"{robot} has started anew")
                 self.shell.dispatcher.lose(robot, f"{robot} has started anew")
@@ -138,6 +139,8 @@ class Orchestrator:
     async def _hear_values(self, box: Events[Letter[RobotValue]]) -> None:
         async for letter in box:
             value = letter.message
+            if not self._own(letter, value.robot):
+                continue
             if not self._world.take_value(value, self._clock.now_ns()):
                 self._ledger.note("value_refused", f"{value.robot} may not publish {value.reading.name}")
                 continue
@@ -148,11 +151,20 @@ class Orchestrator:
     async def _hear_events(self, box: Events[Letter[RobotEvent]]) -> None:
         async for letter in box:
             event = letter.message
+            if not self._own(letter, event.robot):
+                continue
             self._world.take_event(event)
             if event.mission:
                 self.shell.dispatcher.hear(event)
             else:
                 self._ledger.note(event.what, f"{event.robot}: {event.what} {event.detail}".strip())
+
+    def _own(self, letter: Letter[Any], robot: str) -> bool:
+        """Whether a robot speaks of itself on a key of its own; counted as foreign if not."""
+        own = self._world.knows(robot) and self._keys.name_in(letter.key) == robot
+        if not own:
+            self._lost_messages["foreign"] += 1
+        return own
 
     async def _hear_people(self, box: Events[Letter[Message]]) -> None:
         async for letter in box:

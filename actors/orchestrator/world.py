@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 
 from crew.clock import WALL, seconds_ns
+from crew.contracts.gate.guard import FUTURE_NS
 from crew.contracts.site import Rules
 from crew.contracts.snapshot import RobotState, Snapshot, Stamped, StampedValue
 from crew.messages import RobotCard, RobotEvent, RobotStatus, RobotValue
@@ -42,10 +43,14 @@ class WorldFold:
         return rebooted
 
     def take_state(self, state: StateMessage, now_ns: int) -> None:
-        """Remember a robot's state, unless it is another boot's or older than what is known."""
+        """Remember a robot's state, unless it is another boot's or older than what is known.
+
+        A state from the future is remembered (the gate refuses it as stale) but holds up no later one.
+        """
         card = self.cards.get(state.robot)
         known = self._states.get(state.robot)
-        if card is None or card.boot_id != state.boot_id or (known is not None and state.at_ns < known.at_ns):
+        older = known is not None and state.at_ns < known.at_ns <= now_ns + FUTURE_NS
+        if card is None or card.boot_id != state.boot_id or older:
             return
         self._states[state.robot] = state
         self._received[state.robot] = (now_ns, WALL.now_ns())
@@ -60,7 +65,10 @@ class WorldFold:
         return True
 
     def take_event(self, event: RobotEvent) -> None:
-        """An ended dispatch is no longer running, whatever an older state message says; a release lifts the stop."""
+        """An ended dispatch is no longer running, whatever an older state message says."""
+        card = self.cards.get(event.robot)
+        if card is None or card.boot_id != event.boot_id:
+            return
         if event.what in ("succeeded", "failed", "cancelled", "refused"):
             self._ended[event.robot] = f"{event.mission}/{event.sequence}"
 
