@@ -57,9 +57,9 @@ async def test_a_latched_robot_sends_nothing_and_refuses_until_released() -> Non
         stage.iris.halt()
         await stage.until(lambda: still(stage), 5.0)
         stage.iris._repeater.finish()
+        stage.iris.halt()
         sent = stage.iris.link_counts()[0]
         for _ in range(3):
-            stage.iris.halt()
             with pytest.raises(Latched):
                 await stage.iris.execute("fly_to", AWAY, {})
             with pytest.raises(Latched):
@@ -68,6 +68,16 @@ async def test_a_latched_robot_sends_nothing_and_refuses_until_released() -> Non
         stage.iris.release()
         assert not stage.iris.latched
         await stage.run(stage.iris.execute("fly_to", FlyTo(x=-3, y=-3, altitude=3), {}))
+
+
+async def test_a_second_stop_is_sent_again_to_a_vehicle_that_still_moves() -> None:
+    async with lockstep("iris") as stage:
+        await in_flight(stage)
+        stage.iris.halt()
+        stage.iris._repeater.finish()
+        sent = stage.iris.link_counts()[0]
+        stage.iris.halt()
+        assert stage.iris.link_counts()[0] == sent + 1
 
 
 async def test_a_latched_quadcopter_hovers_and_then_lands_by_itself() -> None:
