@@ -18,7 +18,9 @@ class Block(NamedTuple):
 
 def blocks(page: Path) -> list[Block]:
     """All fenced blocks of a page, in order."""
-    found, heading, opened, lines = [], "", None, []
+    found: list[Block] = []
+    lines: list[str] = []
+    heading, opened = "", None
     for number, line in enumerate(page.read_text(encoding="utf-8").splitlines(), start=1):
         fence = _FENCE.match(line)
         if opened is None and line.startswith("#"):
