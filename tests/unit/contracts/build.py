@@ -88,12 +88,16 @@ def with_fluent(state: RobotState, name: str, value: FluentValue, source_ns: int
 
 
 def victim(
-    position: Point | None = SEEN, *, status: str = "ok", stamp_ns: int = NOW_NS, source: str = "iris"
+    position: Point | None = SEEN,
+    *,
+    status: str = "ok",
+    stamp_ns: int = NOW_NS,
+    received_ns: int | None = None,
+    source: str = "iris",
 ) -> StampedValue:
-    """A fix of the victim as the orchestrator received it."""
-    return StampedValue(
-        ValueReading(name="victim", status=status, position=position, stamp_ns=stamp_ns), source, stamp_ns
-    )
+    """A fix of the victim as the orchestrator received it, at once unless told otherwise."""
+    reading = ValueReading(name="victim", status=status, position=position, stamp_ns=stamp_ns)
+    return StampedValue(reading, source, stamp_ns if received_ns is None else received_ns)
 
 
 def world(*robots: RobotState, fix: StampedValue | None = None, stopped: bool = False) -> Snapshot:

@@ -281,6 +281,11 @@ def test_a_fix_older_than_the_search_of_this_mission_is_no_fix(newer_ns: int, ru
     assert code(refusal) is (Code.NO_TARGET_FIX if newer_ns < 0 else None)
 
 
+def test_an_old_fix_that_is_published_again_is_no_fix(rules: Rules) -> None:
+    again = b.victim(stamp_ns=b.NOW_NS - 61 * SECOND_NS, received_ns=b.NOW_NS)
+    assert code(dispatch(rules, b.world(fix=again))) is Code.NO_TARGET_FIX
+
+
 def test_the_search_that_counts_is_the_first_that_publishes(rules: Rules) -> None:
     mission = b.executing(b.SEARCH_AND_SEND, b.FULL, rules)
     mission = b.done(mission, "takeoff", dispatched_ns=b.NOW_NS - 100 * SECOND_NS)
