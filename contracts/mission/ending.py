@@ -52,23 +52,23 @@ def _is_safe_skill(contract: Contract, role: str, record: StepRecord) -> bool:
 
 def _settle(state: MissionState, role: str) -> Result:
     """A role is safe, or can't be commanded; the last one ends the mission."""
-    settled = state.settled if role in state.settled else (*state.settled, role)
-    state = replace(state, settled=settled)
+    state = replace(state, settled=(*state.settled, role))
     assert state.instance is not None
-    if state.active() or any(r.phase in ACTIVE for r in state.safe.values()):
-        return state, ()
-    if set(state.instance.roles) - set(settled):
+    if set(state.instance.roles) - set(state.settled):
         return state, ()
     return end_now(state, _ENDED[state.phase], state.message)
 
 
 def _safe_holds(state: MissionState, event: ev.SafeHolds, contracts: Mapping[str, Contract]) -> Result:
-    """Counts only for a role whose robot runs nothing: what still runs may leave the safe state again."""
+    return _settle(state, event.role) if _is_awaited(event.role, state) else (state, ())
+
+
+def _is_awaited(role: str, state: MissionState) -> bool:
+    """Whether a role still waits for its verdict. While its robot runs something, it may leave a safe state again."""
     assert state.instance is not None
-    robot = state.instance.roles.get(event.role)
-    if robot is None or event.role in state.safe or state.active(robot):
-        return state, ()
-    return _settle(state, event.role)
+    robot = state.instance.roles.get(role)
+    judged = role in state.settled or role in state.safe
+    return robot is not None and not judged and not state.active(robot)
 
 
 def _decided(state: MissionState, event: ev.Decided, contracts: Mapping[str, Contract]) -> Result:
@@ -76,7 +76,7 @@ def _decided(state: MissionState, event: ev.Decided, contracts: Mapping[str, Con
     role = decision.step.removeprefix(SAFE)
     assert state.instance is not None
     known = decision.mission == state.id and state.instance.roles.get(role) == decision.call.robot
-    if decision.purpose is not Purpose.SAFE or not known or role in state.settled or role in state.safe:
+    if decision.purpose is not Purpose.SAFE or not known or not _is_awaited(role, state):
         return state, ()
     if decision.refusal is not None:
         refused = StepRecord(

@@ -236,8 +236,16 @@ def test_success_during_an_early_end_is_not_believed_without_telemetry(rules: Ru
 def test_a_robot_that_still_runs_a_step_is_not_safe(rules: Rules) -> None:
     mission = b.with_step(b.executing(b.SEARCH, b.SEARCH_PLAN, rules), "takeoff", StepPhase.RUNNING)
     state, _ = after(mission, rules, CANCEL)
-    assert after(state, rules, safe("searcher")) == (state, ())
-    assert after(state, rules, safe("nobody")) == (state, ())
+    early = (
+        safe("searcher"),
+        safe("nobody"),
+        decided("safe:searcher", b.LAND),
+        decided("safe:searcher", b.LAND, STALE),
+    )
+    for event in early:
+        assert after(state, rules, event) == (state, ())
+    _, effects = after(state, rules, outcome(1, "cancelled"))
+    assert effects == (ev.MakeSafe(role="searcher"),)
 
 
 def test_a_safe_call_is_watched_like_any_other(rules: Rules) -> None:
