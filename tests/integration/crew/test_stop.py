@@ -1,0 +1,171 @@
+"""One message stops and latches every robot; only the operator's signature releases them."""
+
+import math
+import secrets
+from collections.abc import AsyncIterator, Iterator
+from typing import Any
+
+import pytest
+
+from crew.bus.port import Body, Qos
+from crew.clock import seconds_ns
+from crew.contracts.plan import ArgValue, digest
+from crew.launch.live import OPERATOR
+from crew.messages import RESET, Dispatch, Reset, RobotEvent, Stop
+from crew.signing import load_or_create_key
+from tests.integration.crew.harness import FAR_DRIVE, SEARCH, SHORT_DRIVE, Desk, Up, Watch, intents, watching
+
+BOTH = ("iris", "tb3")
+GARBAGE: dict[str, Body] = {
+    "a stop": Stop(by="operator", reason="test"),
+    "nothing": (b"", ""),
+    "garbage": (b"\xff\x00\xc1" * 100, "application/msgpack;crew.stop/1"),
+    "another version": (b"\x80", "application/msgpack;crew.stop/999"),
+}
+
+
+@pytest.fixture(scope="module")
+def desk(tmp_path_factory: pytest.TempPathFactory) -> Desk:
+    return Desk(tmp_path_factory.mktemp("stop"))
+
+
+@pytest.fixture(scope="module")
+def up(desk: Desk) -> Iterator[Up]:
+    with desk.up(speed="8") as up:
+        yield up
+
+
+@pytest.fixture
+async def watch(up: Up) -> AsyncIterator[Watch]:
+    async with watching(up.running.endpoint) as watch:
+        yield watch
+
+
+async def stopped(watch: Watch, body: Body) -> None:
+    """Put one message on the stop key; wait until both robots say that they are latched and stand still."""
+    watch.put(watch.keys.stop, body, qos=Qos.STOP)
+    await watch.until(lambda: all(watch.states[r].stopped for r in BOTH if r in watch.states), why="latched")
+    await watch.until(lambda: all(watch.states[r].stopped and watch.states[r].still for r in BOTH), 60.0, "still")
+
+
+async def reset(watch: Watch, desk: Desk, **changes: Any) -> Reset:
+    """Publish a reset; signed by the operator as it stands unless the test brings a signature."""
+    epoch = (await watch.status()).epoch
+    sound: dict[str, Any] = {"by": OPERATOR, "epoch": epoch, "targets": BOTH, "nonce": secrets.token_hex(8)}
+    signature = changes.pop("signature", None)
+    unsigned = Reset(**{**sound, **changes}, signature=b"")
+    if signature is None:
+        part = unsigned.signed_part(watch.keys.crew)
+        signature = load_or_create_key(desk.home.keys, OPERATOR).sign(RESET, part)
+    signed = Reset(
+        by=unsigned.by, epoch=unsigned.epoch, targets=unsigned.targets, nonce=unsigned.nonce, signature=signature
+    )
+    watch.put(watch.keys.reset, signed, qos=Qos.STOP)
+    return signed
+
+
+async def released(watch: Watch, desk: Desk) -> None:
+    await reset(watch, desk)
+    await watch.until(lambda: not any(watch.states[r].stopped for r in BOTH), why="released")
+    await watch.until(lambda: sum(e.what == "released" for e in watch.robot_events) >= 2, why="both say so")
+
+
+def refusals(watch: Watch) -> list[RobotEvent]:
+    return [e for e in watch.robot_events if e.what == "reset_refused"]
+
+
+@pytest.mark.parametrize("name", GARBAGE)
+async def test_one_message_stops_everything_in_mid_mission(watch: Watch, desk: Desk, up: Up, name: str) -> None:
+    search, drive = watch.ask(SEARCH), watch.ask(FAR_DRIVE)
+    await watch.airborne()
+    await watch.moving("iris", mps=0.8)
+    await watch.moving("tb3")
+    sent = len(intents(up.run))
+    await stopped(watch, GARBAGE[name])
+    for request in (search, drive):
+        ended = await watch.ended(request)
+        assert (ended.outcome, ended.code) == ("halted", "stopped")
+    x, y, *_ = await watch.standing("tb3")
+    assert math.dist((x, y), (8.0, -5.0)) > 1.0
+    await watch.landed("iris")
+    assert len(intents(up.run)) == sent, "a stopped crew is sent nothing"
+    assert (await watch.status()).stopped
+    await released(watch, desk)
+    await watch.until(lambda: True)
+    assert (await watch.mission(SHORT_DRIVE)).outcome == "completed"
+
+
+async def test_while_latched_nothing_is_accepted_by_anybody(watch: Watch, desk: Desk, up: Up) -> None:
+    sent = len(intents(up.run))
+    await stopped(watch, Stop(by="operator"))
+    refused = await watch.mission(SHORT_DRIVE)
+    assert (refused.outcome, refused.code) == ("rejected", "stopped")
+    assert len(intents(up.run)) == sent
+    args: dict[str, ArgValue] = {"x": -3.0, "y": -3.0}
+    now_ns = watch.states["tb3"].at_ns
+    forged = Dispatch(
+        mission="m-forged",
+        step="dispatch",
+        purpose="execute",
+        sequence=1,
+        robot="tb3",
+        skill="navigate_to",
+        args=args,
+        epoch=(await watch.status()).epoch,
+        lease="m-forged",
+        boot_id=watch.states["tb3"].boot_id,
+        issued_ns=now_ns,
+        expires_ns=now_ns + seconds_ns(60.0),
+        args_digest=digest(args),
+        plan_digest="",
+        contract_digest="",
+    )
+    watch.put(watch.keys.act("tb3", "navigate_to"), forged, qos=Qos.ACTUATION)
+    await watch.until(lambda: any(e.mission == "m-forged" for e in watch.robot_events), why="an answer")
+    answer = next(e for e in watch.robot_events if e.mission == "m-forged")
+    assert (answer.what, answer.code) == ("refused", "stopped")
+    await released(watch, desk)
+
+
+async def test_only_a_fresh_signed_reset_of_this_epoch_releases(watch: Watch, desk: Desk) -> None:
+    used = await reset(watch, desk)
+    await watch.until(lambda: sum(e.what == "released" for e in watch.robot_events) == 2, why="not latched: it counts")
+    await stopped(watch, Stop(by="operator"))
+    epoch = (await watch.status()).epoch
+    wrong: dict[str, tuple[dict[str, Any], str]] = {
+        "unsigned": ({"signature": b""}, "signature"),
+        "signed by another": ({"signature": b"\x07" * 64}, "signature"),
+        "of an older epoch": ({"epoch": epoch - 1}, "epoch"),
+        "of a later epoch": ({"epoch": epoch + 1}, "epoch"),
+        "without targets": ({"targets": ()}, "not among the targets"),
+    }
+    for name, (changes, why) in wrong.items():
+        count = len(refusals(watch))
+        await reset(watch, desk, **changes)
+        await watch.until(lambda count=count: len(refusals(watch)) == count + 2, why=name)  # type: ignore[misc]
+        assert all(why in e.detail for e in refusals(watch)[-2:]), name
+    count = len(refusals(watch))
+    watch.put(watch.keys.reset, used, qos=Qos.STOP)
+    await watch.until(lambda: len(refusals(watch)) == count + 2, why="replayed")
+    assert all("used before" in e.detail for e in refusals(watch)[-2:])
+    watch.put(watch.keys.reset, (b"\x00", "text/plain"), qos=Qos.STOP)
+    await reset(watch, desk, targets=("tb3",))
+    await watch.until(lambda: not watch.states["tb3"].stopped, why="the rover is released")
+    assert watch.states["iris"].stopped, "it was not among the targets"
+    assert (await watch.status()).stopped
+    assert (await watch.mission(SHORT_DRIVE)).code == "stopped"
+    await released(watch, desk)
+
+
+async def test_stop_and_reset_on_the_command_line(watch: Watch, desk: Desk) -> None:
+    watch.ask(FAR_DRIVE)
+    await watch.moving("tb3")
+    stop = desk.crew("stop")
+    assert stop.returncode == 0, stop.stdout + stop.stderr
+    assert "standing still: iris, tb3" in stop.stdout
+    assert "STOPPED" in desk.crew("status").stdout
+    done = desk.crew("reset")
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert "tb3: released" in done.stdout
+    await watch.until(lambda: not any(watch.states[r].stopped for r in BOTH), why="released")
+    assert (await watch.mission(SHORT_DRIVE)).outcome == "completed"
