@@ -72,6 +72,20 @@ def test_a_confirmation_is_not_remembered_for_a_mission_without_one(rules: Rules
         assert code(decision.refusal) is wanted
 
 
+@pytest.mark.parametrize(
+    ("text", "wanted"),
+    [
+        ("search the north half or the south half", Code.AMBIGUOUS_REQUEST),
+        ("search the north half", Code.NOT_REQUESTED),
+        ("search the area, not with iris", Code.FORBIDDEN_BY_REQUEST),
+        ("search the area and send the rover to the victim", Code.REQUEST_DROPPED),
+    ],
+)
+def test_a_confirmation_lifts_unread_words_and_nothing_else(text: str, wanted: Code, rules: Rules) -> None:
+    mission = b.executing(text, b.SEARCH_PLAN, rules, confirmed=True)
+    assert b.refused(b.TAKEOFF, mission, b.world(), rules).code is wanted
+
+
 # --- a step is sent once, in its turn, as it was planned
 
 

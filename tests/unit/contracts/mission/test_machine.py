@@ -164,6 +164,20 @@ def test_dispatch_and_landing_go_side_by_side(rules: Rules) -> None:
     assert effects == (ev.Authorise(step="dispatch"), ev.Authorise(step="land"))
 
 
+def test_a_robot_takes_its_unordered_steps_one_after_the_other(rules: Rules) -> None:
+    contract = rules.contracts["search_only"]
+    free = replace(contract, steps=tuple(replace(s, after=()) for s in contract.steps))
+    loose = replace(rules, contracts={"search_only": free})
+    state = b.executing(b.SEARCH, b.SEARCH_PLAN, loose, phase=Phase.WAITING)
+    for sequence, name in enumerate(("takeoff", "search", "report", "land"), start=1):
+        begin = ev.Leased(at_ns=AT_NS) if sequence == 1 else seen(sequence - 1)
+        state, effects = after(state, loose, begin)
+        assert effects == (ev.Authorise(step=name),)
+        call = state.steps[name].call
+        state, effects = after(state, loose, decided(name, call), outcome(sequence, "succeeded"))
+        assert effects == (ev.WatchEffect(sequence=sequence),)
+
+
 def test_one_refused_and_the_other_sent_halts_and_lets_a_landing_run_on(rules: Rules) -> None:
     state, _ = in_parallel(rules)
     state, effects = after(state, rules, decided("land", b.LAND), decided("dispatch", b.DISPATCH, STALE))
