@@ -9,7 +9,7 @@ from msgspec.structs import replace
 from crew.contracts.codes import Code
 from crew.contracts.gate.authorize import Gate
 from crew.contracts.gate.guard import SECOND_NS
-from crew.contracts.mission_state import CONSUMED, Purpose, StepPhase
+from crew.contracts.mission_state import ACTIVE, CONSUMED, Purpose, StepPhase
 from crew.contracts.plan import Call
 from crew.contracts.refusal import Refusal
 from crew.contracts.site import Rules
@@ -140,6 +140,16 @@ def test_a_robot_whose_kind_has_other_bounds_takes_nothing(rules: Rules) -> None
 
 def test_a_robot_of_another_mission_takes_nothing(rules: Rules) -> None:
     assert code(dispatch(rules, b.world(b.tb3(lease="m10"), fix=b.victim()))) is Code.ROBOT_LEASED
+
+
+@pytest.mark.parametrize("phase", sorted(ACTIVE))
+def test_a_robot_whose_other_step_is_in_flight_is_busy_whatever_it_says_itself(phase: StepPhase, rules: Rules) -> None:
+    contract = rules.contracts["search_only"]
+    free = replace(contract, steps=tuple(replace(s, after=()) for s in contract.steps))
+    loose = replace(rules, contracts={"search_only": free})
+    mission = b.with_step(b.executing(b.SEARCH, b.SEARCH_PLAN, loose), "search", phase)
+    refusal = b.refused(b.REPORT, mission, b.world(AIRBORNE), loose)
+    assert (refusal.code, refusal.observed) == (Code.ROBOT_BUSY, "search")
 
 
 def test_a_robot_that_makes_itself_safe_takes_no_step(rules: Rules) -> None:
