@@ -186,8 +186,15 @@ def test_table_of_codes_is_the_gates_own() -> None:
 
 def made(target: str) -> list[str]:
     """The last command of a make target, as the Makefile gives it."""
+    from_outside = {"MAKEFLAGS", "MFLAGS", "MAKELEVEL", "MAKEOVERRIDES", "ARGS", "CREW"}
     listed = subprocess.run(
-        [*shlex.split(target), "--dry-run"], cwd=ROOT, capture_output=True, text=True, check=True, timeout=20
+        [*shlex.split(target), "--dry-run", "--no-print-directory"],
+        cwd=ROOT,
+        env={name: value for name, value in os.environ.items() if name not in from_outside},
+        capture_output=True,
+        text=True,
+        check=True,
+        timeout=20,
     )
     first, *others = shlex.split(listed.stdout.splitlines()[-1])
     return [Path(first).name, *others]

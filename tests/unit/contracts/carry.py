@@ -6,9 +6,9 @@ from typing import Annotated
 from crew.contracts.contract import Contract
 from crew.contracts.files.contract_file import load_contract
 from crew.contracts.files.crew_file import load_crew
+from crew.contracts.files.source import SourceError, SourceErrors
 from crew.contracts.site import Crew
 from crew.contracts.skill import Entity, Fluent, Kind, Skill, SkillArgs, entity, number
-from crew.contracts.files.source import SourceError, SourceErrors
 
 
 class PickPlace(SkillArgs, frozen=True):

@@ -9,11 +9,11 @@ from hypothesis import strategies as st
 from crew.contracts.contract import CallPattern, Condition, Role, SafeState, SlotType
 from crew.contracts.files.contract_file import load_contract
 from crew.contracts.files.crew_file import load_crew
+from crew.contracts.files.source import SourceErrors
 from crew.contracts.kinds.quadcopter import QUADCOPTER
 from crew.contracts.kinds.rover import ROVER
 from crew.contracts.site import Crew
 from crew.contracts.skill import Kind
-from crew.contracts.files.source import SourceErrors
 from tests.unit.contracts.carry import CARRY_TEXT, carry, crew_of, edited, errors_of, mark
 
 ROOT = Path(__file__).parents[3]

@@ -7,8 +7,8 @@ import pytest
 
 from crew.contracts.files.contract_file import load_contract
 from crew.contracts.files.contract_model import ContractModel, NeverModel, SlotModel, StepModel
-from crew.contracts.site import Rules
 from crew.contracts.files.source import SourceErrors
+from crew.contracts.site import Rules
 from crew.library import load_rules
 
 GUIDE = (Path(__file__).parents[3] / "docs" / "contracts.md").read_text(encoding="utf-8")
