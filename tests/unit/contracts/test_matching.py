@@ -66,7 +66,7 @@ def assert_sound(plan: Plan, instance: Instance) -> None:
             assert call.args["altitude"] == altitude, "one binding"
 
 
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=100, deadline=None)
 @given(st.sampled_from(sorted(RULES.contracts)), st.lists(ANY_CALL, max_size=7))
 def test_whatever_matches_is_sound(contract: str, calls: list[Call]) -> None:
     plan = Plan(contract, tuple(calls))

@@ -75,7 +75,7 @@ def inputs(draw: Callable[..., Any]) -> Inputs:
     return Inputs(draw(CALLS), mission, b.world(iris, tb3, fix=fix), b.NOW_NS, draw(st.sampled_from(Purpose)))
 
 
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=80, deadline=None)
 @given(inputs())
 def test_the_same_inputs_give_the_same_bytes_after_a_journey(packed_rules: Rules, given_inputs: Inputs) -> None:
     first = bytes_of(decide(given_inputs, RULES))
@@ -85,7 +85,7 @@ def test_the_same_inputs_give_the_same_bytes_after_a_journey(packed_rules: Rules
     assert bytes_of(decide(copy, packed_rules)) == first
 
 
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=80, deadline=None)
 @given(inputs())
 def test_what_is_allowed_is_the_next_step_of_a_free_robot_with_fresh_state(given_inputs: Inputs) -> None:
     """The gate once more, as a handful of necessary conditions that share nothing with it."""

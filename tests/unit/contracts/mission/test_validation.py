@@ -233,7 +233,7 @@ ANY_PLAN_CALL = st.builds(
 )
 
 
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=100, deadline=None)
 @given(
     st.sampled_from(("search_and_dispatch", "search_only", "dispatch_only", "abort", "")),
     st.lists(ANY_PLAN_CALL, max_size=4),
