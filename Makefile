@@ -19,7 +19,7 @@ check: .venv/.ready  ## formatting, lint, types, import layers
 	$(BIN)/ruff format --check .
 	$(BIN)/ruff check .
 	$(BIN)/mypy
-	$(BIN)/lint-imports
+	$(BIN)/lint-imports --no-logo
 
 bench: .venv/.ready  ## measure speed and latency
 	$(BIN)/python -m tests.bench $(ARGS)
