@@ -92,8 +92,8 @@ class MissionState(msgspec.Struct, frozen=True, kw_only=True):
     reading: Reading
     epoch: int = 0
     phase: Phase = Phase.RECEIVED
-    started_ns: int = 0
-    """Mission time at which execution began; the contract's deadline counts from here."""
+    started_ns: int = -1
+    """Mission time at which execution began, or -1; the contract's deadline counts from here."""
     plan: Plan | None = None
     planner: str = ""
     replans: int = 0

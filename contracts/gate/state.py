@@ -19,7 +19,6 @@ from crew.contracts.mission_state import ACTIVE, MissionState, Purpose
 from crew.contracts.plan import Call
 from crew.contracts.refusal import Refusal, show
 from crew.contracts.site import Rules
-from crew.contracts.skill import Skill
 from crew.contracts.snapshot import Snapshot
 
 
@@ -47,9 +46,10 @@ def _conditions(
     call: Call, step: str, mission: MissionState, world: Snapshot, rules: Rules, now_ns: int, purpose: Purpose
 ) -> Iterator[Refusal]:
     """Every condition on the call that does not hold: preconditions; for a step also guards, deadline, approval."""
-    yield from _preconditions(call, skill_of(call, rules), mission, world, rules, now_ns)
+    scope = scope_of(mission, world, rules, now_ns)
+    yield from _preconditions(call, scope)
     if purpose is Purpose.EXECUTE:
-        yield from _guards(step, mission, world, rules, now_ns)
+        yield from _guards(step, mission, scope)
         refusals = (_check_deadline(mission, rules, now_ns), _check_approval(step, mission, rules))
         yield from (r for r in refusals if r is not None)
 
@@ -82,18 +82,10 @@ def _check_availability(call: Call, mission: MissionState, world: Snapshot, rule
 
 
 def _check_busy(call: Call, step: str, mission: MissionState, world: Snapshot) -> Refusal | None:
-    records = [
-        *mission.steps.items(),
-        *((f"safe:{r}", s) for r, s in mission.safe.items()),
-    ]
-    running = next(
-        (
-            name
-            for name, record in records
-            if name != step and record.phase in ACTIVE and record.call.robot == call.robot
-        ),
-        world.robots[call.robot].running,
-    )
+    running = world.robots[call.robot].running
+    for name, record in (*mission.steps.items(), *((f"safe:{role}", r) for role, r in mission.safe.items())):
+        if record.phase in ACTIVE and record.call.robot == call.robot and name != step:
+            running = name
     if not running:
         return None
     message = f"{call.robot} is still busy with {running}"
@@ -126,24 +118,20 @@ def _stale(call: Call, field: str, observed: str, allowed: str) -> Refusal:
     return Refusal(code=Code.STATE_STALE, message=message, field=field, observed=observed, allowed=allowed)
 
 
-def _preconditions(
-    call: Call, skill: Skill, mission: MissionState, world: Snapshot, rules: Rules, now_ns: int
-) -> Iterator[Refusal]:
-    scope = scope_of(mission, world, rules, now_ns)
-    for fluent, wanted in skill.needs.items():
+def _preconditions(call: Call, scope: Scope) -> Iterator[Refusal]:
+    for fluent, wanted in skill_of(call, scope.rules).needs.items():
         verdict = robot_fluent_is(call.robot, fluent, wanted, scope)
         refusal = _judge(f"{call.robot}.{fluent}", f"is {show(wanted)}", verdict, "")
         if refusal is not None:
             yield refusal
 
 
-def _guards(step: str, mission: MissionState, world: Snapshot, rules: Rules, now_ns: int) -> Iterator[Refusal]:
+def _guards(step: str, mission: MissionState, scope: Scope) -> Iterator[Refusal]:
     assert mission.instance is not None
-    contract = rules.contracts[mission.instance.contract]
+    contract = scope.rules.contracts[mission.instance.contract]
     declared = contract.step(step)
     assert declared is not None
     entry = () if mission.sent_any else contract.needs
-    scope = scope_of(mission, world, rules, now_ns)
     for condition in (*entry, *declared.needs):
         line = f"{contract.name}:{condition.line}"
         refusal = _judge(condition.path, _wanted(condition), evaluate(condition, scope), line, scope)
@@ -174,7 +162,7 @@ def _judge(path: str, wanted: str, verdict: Verdict, line: str, scope: Scope | N
 def _check_deadline(mission: MissionState, rules: Rules, now_ns: int) -> Refusal | None:
     assert mission.instance is not None
     limit_s = rules.contracts[mission.instance.contract].deadline_s
-    spent_s = (now_ns - mission.started_ns) / SECOND_NS if mission.started_ns else 0.0
+    spent_s = (now_ns - mission.started_ns) / SECOND_NS if mission.started_ns >= 0 else 0.0
     if spent_s <= limit_s:
         return None
     message = f"the mission has run {spent_s:.0f} s, its contract allows {limit_s:g} s"

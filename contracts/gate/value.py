@@ -6,7 +6,7 @@ from crew.contracts.codes import Code
 from crew.contracts.gate.guard import age, publication
 from crew.contracts.gate.scope import is_position, skill_of
 from crew.contracts.mission_state import MissionState
-from crew.contracts.plan import Call, InstanceStep
+from crew.contracts.plan import Call, InstanceStep, Zone
 from crew.contracts.refusal import Refusal
 from crew.contracts.site import Rules
 from crew.contracts.skill import Entity
@@ -33,8 +33,22 @@ def check_values(
             return Refusal(
                 code=code, message=message, field=f"args.{param.name}", observed=outcome, allowed="a fresh fix"
             )
+        excluded = next((z for z in mission.reading.excluded_areas if z.contains(outcome.x, outcome.y)), None)
+        if excluded is not None:
+            where = f"({outcome.x:.2f}, {outcome.y:.2f})"
+            return Refusal(
+                code=Code.FORBIDDEN_BY_REQUEST,
+                message=f"{name} is at {where}, inside an area that the request excludes: {_zone(excluded)}",
+                field=f"args.{param.name}",
+                observed=where,
+                allowed=f"outside {_zone(excluded)}",
+            )
         places[param.name] = outcome
     return places
+
+
+def _zone(zone: Zone) -> str:
+    return f"x {zone.x_min:g} to {zone.x_max:g}, y {zone.y_min:g} to {zone.y_max:g}"
 
 
 def _usable(name: str, step: str, mission: MissionState, world: Snapshot, rules: Rules, now_ns: int) -> Point | str:

@@ -1,7 +1,7 @@
 """The gate's third group of checks: is this call the next authorised transition of the mission's workflow?"""
 
 from crew.contracts.codes import Code
-from crew.contracts.mission_state import CONSUMED, MissionState, Purpose, StepPhase, enabled
+from crew.contracts.mission_state import CONSUMED, MissionState, Phase, Purpose, StepPhase, enabled
 from crew.contracts.plan import Call
 from crew.contracts.refusal import Refusal
 from crew.contracts.site import Rules
@@ -15,8 +15,10 @@ def step_for(call: Call, mission: MissionState, purpose: Purpose) -> str:
         role = next((role for role, robot in mission.instance.roles.items() if robot == call.robot), "")
         return f"safe:{role}" if role else ""
     same = [s.step for s in mission.instance.steps if s.call == call]
+    if len(same) < 2:
+        return same[0] if same else ""
     ready = {name for name in same if mission.steps[name].phase is StepPhase.DECIDING} | set(enabled(mission))
-    return next((name for name in same if name in ready), same[0] if same else "")
+    return next((name for name in same if name in ready), same[0])
 
 
 def check_workflow(call: Call, step: str, mission: MissionState, rules: Rules, purpose: Purpose) -> Refusal | None:
@@ -32,6 +34,11 @@ def check_workflow(call: Call, step: str, mission: MissionState, rules: Rules, p
             message = f"{call} is no declared safe state of {contract.name}"
             return Refusal(code=Code.NOT_IN_PLAN, message=message, field="skill", observed=str(call))
         return None
+    if mission.phase is not Phase.EXECUTING:
+        message = f"the mission is {mission.phase}; its steps are sent only while it is executing"
+        return Refusal(
+            code=Code.OUT_OF_ORDER, message=message, field="mission", observed=str(mission.phase), allowed="executing"
+        )
     if not step:
         message = f"{call} is no step of the validated plan"
         allowed = ", ".join(str(s.call) for s in mission.instance.steps)

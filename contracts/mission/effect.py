@@ -1,12 +1,12 @@
 """Effects: what a skill is expected to change, whether telemetry has shown it, and the predicted world of a dry run."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 from msgspec.structs import replace
 
 from crew.contracts.gate.guard import Scope, Truth, robot_fluent_is
 from crew.contracts.mission_state import StepRecord
-from crew.contracts.plan import Call
+from crew.contracts.plan import Call, Zone
 from crew.contracts.site import Rules
 from crew.contracts.skill import FluentLiteral, Skill
 from crew.contracts.snapshot import (
@@ -91,16 +91,27 @@ def assumed_world(world: Snapshot, mission_id: str, rules: Rules, now_ns: int) -
     return replace(world, robots=robots)
 
 
-def predict(world: Snapshot, call: Call, skill: Skill, rules: Rules, now_ns: int) -> Snapshot:
-    """The world after a successful call, with the values that it publishes assumed good."""
+def predict(
+    world: Snapshot, call: Call, skill: Skill, rules: Rules, now_ns: int, avoid: Sequence[Zone] = ()
+) -> Snapshot:
+    """The world after a successful call. Values that it publishes are assumed good, and outside the zones to avoid."""
     state = world.robots[call.robot]
     fluents = dict(state.fluents)
     fluents.update({name: Stamped(v, now_ns, now_ns) for name, v in effect_values(skill, call).items()})
     values = dict(world.values)
-    area = rules.crew.area
-    centre = Point((area.x_min + area.x_max) / 2, (area.y_min + area.y_max) / 2)
     for name in skill.reports:
-        reading = ValueReading(name=name, status="ok", position=centre, stamp_ns=now_ns)
+        position = _somewhere(rules.crew.area, avoid)
+        reading = ValueReading(name=name, status="ok", position=position, stamp_ns=now_ns)
         values[name] = StampedValue(reading, call.robot, now_ns)
     robots = {**world.robots, call.robot: replace(state, fluents=fluents)}
     return replace(world, robots=robots, values=values)
+
+
+def _somewhere(area: Zone, avoid: Sequence[Zone]) -> Point:
+    """The middle of the area, or the first point of a coarse grid that no zone to avoid holds, if there is one."""
+    grid = [
+        Point(area.x_min + (area.x_max - area.x_min) * i / 8, area.y_min + (area.y_max - area.y_min) * j / 8)
+        for i in (4, 1, 2, 3, 5, 6, 7)
+        for j in (4, 1, 2, 3, 5, 6, 7)
+    ]
+    return next((p for p in grid if not any(z.contains(p.x, p.y) for z in avoid)), grid[0])

@@ -80,7 +80,7 @@ def _dry_run(
         kind = rules.kind_of(step.call.robot)
         skill = None if kind is None else kind.skill(step.call.skill)
         assert skill is not None, f"{step.call} passed the capability check"
-        predicted = predict(predicted, step.call, skill, rules, now_ns)
+        predicted = predict(predicted, step.call, skill, rules, now_ns, mission.reading.excluded_areas)
         done = StepRecord(
             call=step.call,
             phase=StepPhase.SUCCEEDED,
