@@ -1,7 +1,6 @@
 """One robot on the bus: takes dispatches that pass its own check, runs them on its adapter, tells what it sees."""
 
 import asyncio
-import contextlib
 import secrets
 
 import msgspec
@@ -31,6 +30,11 @@ CONNECT_RETRY_S = 2.0
 CONFIRM_S = 3.0
 """How long the effect of a skill may take to show in telemetry after the adapter says that it is done."""
 CANCEL_S = 20.0
+SAFE_TRIES = 5
+SAFE_RETRY_S = 1.0
+"""Wall time before a safe behaviour that failed is tried again; telemetry may have been late."""
+SUPERSEDED = ("cancelled", "stopped")
+"""Codes of a safe behaviour that ended because another one took over."""
 
 
 class RobotActor:
@@ -59,6 +63,8 @@ class RobotActor:
         self._adapter, self._clock = adapter, clock
         self._skill: Skill | None = None
         self._task: asyncio.Task[None] | None = None
+        self._begun = False
+        self._ending = ""
         self._problem = "connecting to the vehicle"
         self.report = Reporter(bus, keys, spec, self, adapter, clock)
         self._stop = StopSwitch(bus, keys, self, adapter, operator_key)
@@ -77,7 +83,12 @@ class RobotActor:
     @property
     def idle(self) -> bool:
         """Nothing is going on: the simulation need not hurry."""
-        return not self.running and not self._problem and not self._stop.acting and not self._watch.acting
+        return not self.running and not self._problem and not self.making_safe
+
+    @property
+    def making_safe(self) -> bool:
+        """A declared behaviour, of a stop or of a lost orchestrator, is under way: the robot may move yet."""
+        return self._stop.acting or self._watch.acting
 
     @property
     def unavailable(self) -> str:
@@ -113,17 +124,22 @@ class RobotActor:
 
     async def interrupt(self, code: str) -> None:
         """End the running skill from within (a stop, a lost orchestrator); its outcome carries `code`."""
-        if self._task is not None:
-            self._task.cancel(code)
-            with contextlib.suppress(asyncio.CancelledError):
-                await asyncio.wait({self._task})
+        if (task := self._task) is not None:
+            self._end_running(code)
+            await asyncio.wait({task})
 
     async def make_safe(self, behaviour: str) -> None:
-        """Carry out a declared behaviour on the adapter; a failure is reported, never raised."""
-        try:
-            await self._adapter.safe(behaviour)
-        except AdapterError as error:
-            self.report.event("safe_failed", code=error.code, detail=f"{behaviour}: {error}")
+        """Carry out a declared behaviour on the adapter; a failure is reported and tried again, never raised."""
+        for tries in range(SAFE_TRIES):
+            if tries:
+                await WALL.sleep(SAFE_RETRY_S)
+            try:
+                await self._adapter.safe(behaviour)
+                return
+            except AdapterError as error:
+                if error.code in SUPERSEDED:
+                    return
+                self.report.event("safe_failed", code=error.code, detail=f"{behaviour}: {error}")
 
     async def _connect(self) -> None:
         while True:
@@ -160,24 +176,38 @@ class RobotActor:
         self.running = f"{dispatch.mission}/{dispatch.sequence}"
         self._skill = self.kind.skill(dispatch.skill)
         self.report.of(dispatch, "accepted")
+        self._begun, self._ending = False, ""
         self._task = group.create_task(self._carry_out(dispatch))
 
     def _cancel(self, cancel: CancelSkill) -> None:
         running = self.running == f"{cancel.mission}/{cancel.sequence}"
-        if self.admission.concerns(cancel) and running and self._task is not None:
-            self._task.cancel("cancelled")
+        if self.admission.concerns(cancel) and running:
+            self._end_running("cancelled")
+
+    def _end_running(self, code: str) -> None:
+        """Ask the running skill to end, once: a second cancel would cut off the braking and the report of the first."""
+        if self._task is None or self._ending:
+            return
+        self._ending = code
+        if self._begun:
+            self._task.cancel(code)
 
     async def _carry_out(self, dispatch: Dispatch) -> None:
         """Run one skill to its end and report it. Being cancelled stops the vehicle first."""
         what, code, detail = "succeeded", "", ""
         try:
-            await self._execute(dispatch)
+            if self._ending:
+                what, code, detail = "cancelled", self._ending, "before it began"
+            else:
+                self._begun = True
+                await self._execute(dispatch)
         except Latched as error:
             what, code, detail = "cancelled", error.code, str(error)
         except AdapterError as error:
             what, code, detail = "failed", error.code, str(error)
         except TimeoutError as error:
             what, code, detail = "failed", "timeout", str(error)
+            self._ending = code
             await self._halt_motion()
         except asyncio.CancelledError as error:
             reason = str(error.args[0]) if error.args else ""

@@ -61,7 +61,7 @@ class Reporter:
                 at_ns=self._clock.now_ns(),
                 unavailable=actor.unavailable,
                 stopped=self._adapter.latched,
-                still=self.still,
+                still=self.still and not actor.making_safe,
                 running=actor.running,
                 epoch=actor.admission.epoch,
                 dropped=actor.dropped,

@@ -40,6 +40,8 @@ class FakeAdapter:
         self.finish = asyncio.Event()
         self.broken: AdapterError | None = None
         self.deaf: AdapterError | None = None
+        self.brake = asyncio.Event()
+        self.brake.set()
         self.missing: list[AdapterError] = []
         self.sick = ""
         self.known: dict[str, FluentValue] = {"moving": False, "at": Point(*SPAWN), "battery": 90.0}
@@ -66,6 +68,7 @@ class FakeAdapter:
 
     async def cancel(self) -> None:
         self.did.append("cancel")
+        await self.brake.wait()
         if self.deaf is not None:
             raise self.deaf
 
@@ -122,6 +125,7 @@ class RobotStage:
     events: list[RobotEvent] = field(default_factory=list)
     states: list[RobotState] = field(default_factory=list)
     token: Declaration | None = None
+    task: "asyncio.Task[None] | None" = None
     beats: int = 0
 
     def __post_init__(self) -> None:
@@ -163,6 +167,12 @@ class RobotStage:
         """Wait for an event of one of these kinds."""
         await self.until(lambda: any(e.what in whats for e in self.events), f"one of {whats}")
         return self.last(*whats)
+
+    async def end(self) -> None:
+        """End the robot as its process does."""
+        assert self.task is not None
+        self.task.cancel()
+        await asyncio.gather(self.task, return_exceptions=True)
 
     # The orchestrator's side.
 
@@ -260,10 +270,9 @@ async def robot_stage(*missing: AdapterError) -> AsyncIterator[RobotStage]:
             adapter.missing = list(missing)
             actor = RobotActor(robot_bus, keys, spec, rules, as_adapter(adapter), clock, operator.public)
             stage = RobotStage(rules, bus, keys, clock, adapter, actor, operator, fabric)
-            task = asyncio.create_task(actor.run())
+            stage.task = asyncio.create_task(actor.run())
             try:
                 await stage.heard("ready")
                 yield stage
             finally:
-                task.cancel()
-                await asyncio.gather(task, return_exceptions=True)
+                await stage.end()

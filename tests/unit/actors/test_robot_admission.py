@@ -216,10 +216,25 @@ async def test_a_cancel_that_the_vehicle_does_not_confirm_says_so(stage: RobotSt
     assert "may still be moving" in cancelled.detail
 
 
-async def test_a_second_cancel_while_it_brakes_does_not_hurt(stage: RobotStage) -> None:
+async def test_a_dispatch_and_its_cancel_that_arrive_together_run_nothing(stage: RobotStage) -> None:
+    stage.send(stage.dispatch())
+    stage.cancel()
+    while not stage.fabric.settled():
+        pass  # the robot's loop is this one: both wait in its mailbox
+    cancelled = await stage.heard("cancelled")
+    assert (cancelled.code, cancelled.sequence) == ("cancelled", 1)
+    assert stage.adapter.did == []
+    await stage.started(sequence=2)
+
+
+async def test_a_second_cancel_while_it_brakes_does_not_cut_off_the_report(stage: RobotStage) -> None:
     await stage.started()
+    stage.adapter.brake.clear()
     stage.cancel()
+    await stage.until(lambda: "cancel" in stage.adapter.did, "it brakes")
     stage.cancel()
+    await stage.settle()
+    stage.adapter.brake.set()
     await stage.heard("cancelled")
     await stage.settle()
     stage.adapter.finish.clear()

@@ -6,8 +6,9 @@ from typing import Any
 
 import pytest
 
-from crew.actors.robot import lost
+from crew.actors.robot import actor, lost
 from crew.bus.port import Qos
+from crew.clock import WALL, seconds_ns
 from crew.errors import AdapterError
 from tests.unit.actors.stage import RobotStage, robot_stage
 
@@ -54,11 +55,38 @@ async def test_a_stop_while_the_effect_is_awaited_ends_the_skill_once(stage: Rob
 
 async def test_a_stop_while_a_cancel_brakes_still_latches_and_reports_once(stage: RobotStage) -> None:
     await stage.started()
+    stage.adapter.brake.clear()
     stage.cancel()
+    await stage.until(lambda: "cancel" in stage.adapter.did, "it brakes")
     stage.stop()
+    await stage.until(lambda: stage.adapter.latched, "latched, whatever the brake does")
+    stage.adapter.brake.set()
     await stopped(stage)
-    assert stage.adapter.latched
     assert stage.whats.count("cancelled") == 1
+
+
+async def test_a_stop_while_a_timed_out_skill_brakes_does_not_cut_off_the_report(stage: RobotStage) -> None:
+    await stage.started()
+    stage.adapter.brake.clear()
+    stage.clock.advance(stage.clock.now_ns() + seconds_ns(181.0))
+    await stage.until(lambda: "cancel" in stage.adapter.did, "it brakes")
+    stage.stop()
+    await stage.settle()
+    stage.adapter.brake.set()
+    assert (await stage.heard("failed")).code == "timeout"
+    await stopped(stage)
+
+
+async def test_a_robot_that_ends_while_it_makes_itself_safe_ends_at_once(stage: RobotStage) -> None:
+    await stage.started()
+    stage.adapter.brake.clear()
+    stage.cancel()
+    await stage.until(lambda: "cancel" in stage.adapter.did, "it brakes")
+    assert stage.token is not None
+    stage.token.close()
+    await stage.heard("orchestrator_lost")
+    assert await WALL.race(stage.end(), 2.0)
+    assert not any(d.startswith("safe:") for d in stage.adapter.did)
 
 
 async def test_a_stop_halts_while_the_loop_is_blocked(stage: RobotStage) -> None:
@@ -78,6 +106,18 @@ async def test_anything_on_the_stop_key_stops(stage: RobotStage, body: tuple[byt
     assert stage.adapter.latched
 
 
+async def test_a_robot_is_not_called_still_while_it_makes_itself_safe(
+    stage: RobotStage, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(actor, "SAFE_RETRY_S", 0.1)
+    await stage.until(lambda: stage.states[-1].still, "it stands")
+    stage.adapter.deaf = AdapterError("tb3: brake broken", code="still_moving")
+    stage.stop()
+    await stage.until(lambda: stage.states[-1].stopped and not stage.states[-1].still, "not yet")
+    stage.adapter.deaf = None
+    await stage.until(lambda: stage.states[-1].still, "now")
+
+
 async def test_while_stopped_nothing_is_taken(stage: RobotStage) -> None:
     stage.stop()
     await stopped(stage)
@@ -86,12 +126,28 @@ async def test_while_stopped_nothing_is_taken(stage: RobotStage) -> None:
     assert "navigate_to" not in stage.adapter.did
 
 
-async def test_a_failed_safe_behaviour_is_told_and_the_robot_serves_on(stage: RobotStage) -> None:
+async def test_a_failed_safe_behaviour_is_told_and_tried_again(
+    stage: RobotStage, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(actor, "SAFE_RETRY_S", 0.02)
     stage.adapter.deaf = AdapterError("tb3: brake broken", code="still_moving")
     stage.stop()
     failed = await stage.heard("safe_failed")
     assert (failed.code, failed.detail) == ("still_moving", "stop: tb3: brake broken")
     stage.adapter.deaf = None
+    tries = stage.adapter.did.count("safe:stop")
+    await stage.until(lambda: stage.adapter.did.count("safe:stop") > tries, "it tries again")
+    stage.reset()
+    await stage.heard("released")
+
+
+async def test_a_safe_behaviour_that_keeps_failing_does_not_end_the_robot(
+    stage: RobotStage, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(actor, "SAFE_RETRY_S", 0.01)
+    stage.adapter.deaf = AdapterError("tb3: brake broken", code="still_moving")
+    stage.stop()
+    await stage.until(lambda: stage.whats.count("safe_failed") == actor.SAFE_TRIES, "it gives up")
     await stage.settle()
     stage.reset()
     await stage.heard("released")
