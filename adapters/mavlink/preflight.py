@@ -45,8 +45,10 @@ def fitness_fault(telemetry: Telemetry, flavour: Flavour, min_battery_percent: f
         return "battery unknown"
     if battery.value < min_battery_percent:
         return f"battery at {battery.value:.0f} %, needs {min_battery_percent:.0f} %"
-    bad = bad_sensors(telemetry, flavour)
-    return f"unhealthy: {', '.join(bad)}" if bad else ""
+    if bad := bad_sensors(telemetry, flavour):
+        return f"unhealthy: {', '.join(bad)}"
+    critical = telemetry.heartbeat is not None and telemetry.heartbeat.value.critical
+    return "the vehicle reports a critical state" if critical else ""
 
 
 def bad_sensors(telemetry: Telemetry, flavour: Flavour) -> list[str]:

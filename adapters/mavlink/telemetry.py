@@ -31,6 +31,8 @@ class Sample(msgspec.Struct, Generic[T], frozen=True):
 class Heartbeat(msgspec.Struct, frozen=True):
     custom_mode: int
     armed: bool
+    critical: bool
+    """The vehicle says that it is in a failsafe, an emergency, or going down."""
 
 
 class Motion(msgspec.Struct, frozen=True):
@@ -146,7 +148,8 @@ class Telemetry:
 
     def _take_heartbeat(self, message: Any) -> None:
         armed = bool(message.base_mode & mavlink.MAV_MODE_FLAG_SAFETY_ARMED)
-        self.heartbeat = self._sample(Heartbeat(int(message.custom_mode), armed))
+        critical = message.system_status >= mavlink.MAV_STATE_CRITICAL
+        self.heartbeat = self._sample(Heartbeat(int(message.custom_mode), armed, critical))
 
     def _take_sys_status(self, message: Any) -> None:
         present, healthy = message.onboard_control_sensors_present, message.onboard_control_sensors_health

@@ -79,7 +79,7 @@ class ArduPilotRover(Autopilot):
         base |= mavlink.MAV_MODE_FLAG_GUIDED_ENABLED if self.mode == GUIDED else 0
         base |= mavlink.MAV_MODE_FLAG_SAFETY_ARMED if self._armed else 0
         status = mavlink.MAV_STATE_ACTIVE if self._armed else mavlink.MAV_STATE_STANDBY
-        if self._failures:
+        if self._failures or self.faulty:
             status = mavlink.MAV_STATE_CRITICAL
         return mavlink.MAVLink_heartbeat_message(
             mavlink.MAV_TYPE_GROUND_ROVER, mavlink.MAV_AUTOPILOT_ARDUPILOTMEGA, base, self.mode, status, 3

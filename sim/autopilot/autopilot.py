@@ -93,10 +93,15 @@ class Autopilot(ABC):
     def gps_ok(self) -> bool:
         return not self.faults.is_on("gps_loss")
 
+    @property
+    def faulty(self) -> bool:
+        """A system fault, armed or not: the heartbeat says CRITICAL."""
+        return self.faults.is_on(unavailable(self.name))
+
     def problems(self) -> list[str]:
         """Why arming would be refused now; empty when healthy."""
         found = []
-        if self.faults.is_on(unavailable(self.name)):
+        if self.faulty:
             found.append("system fault: vehicle unavailable")
         if not self.gps_ok:
             found.append("no valid position (GPS)")

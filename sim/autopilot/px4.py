@@ -101,7 +101,7 @@ class Px4Quadcopter(Autopilot):
         base |= mavlink.MAV_MODE_FLAG_GUIDED_ENABLED | mavlink.MAV_MODE_FLAG_AUTO_ENABLED
         base |= mavlink.MAV_MODE_FLAG_SAFETY_ARMED if self.armed else 0
         status = mavlink.MAV_STATE_ACTIVE if self.armed else mavlink.MAV_STATE_STANDBY
-        if self._failures and self.armed:
+        if (self._failures and self.armed) or self.faulty:
             status = mavlink.MAV_STATE_CRITICAL
         mode = AUTO << 16 | SUB_MODE.get(self.phase, LOITER) << 24
         return mavlink.MAVLink_heartbeat_message(

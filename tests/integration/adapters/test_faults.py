@@ -50,6 +50,17 @@ async def test_a_drive_failsafe_that_is_off_refuses_to_move() -> None:
         assert not stage.world.truth().robots["tb3"].armed
 
 
+async def test_a_vehicle_in_a_critical_state_takes_no_skill() -> None:
+    async with lockstep("tb3") as stage:
+        assert stage.tb3.health() == ""
+        stage.world.set_fault("tb3_unavailable", True)
+        await stage.advance(1.5)
+        assert stage.tb3.health() == "the vehicle reports a critical state"
+        with pytest.raises(AdapterError, match="critical") as caught:
+            await stage.run(stage.tb3.execute("navigate_to", DRIVE, {}))
+        assert caught.value.code == "robot_unavailable"
+
+
 @pytest.mark.parametrize(
     ("fault", "reason"),
     [("iris_unavailable", "pre-arm check"), ("gps_loss", "position lost"), ("battery_low", "battery at 12 %")],
