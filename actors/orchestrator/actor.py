@@ -128,6 +128,7 @@ class Orchestrator:
         async for letter in box:
             if self._own(letter, letter.message.robot):
                 self._world.take_state(letter.message, self._clock.now_ns())
+                self._lift_stop()
 
     async def _hear_cards(self, box: KeepLatest[Letter[RobotCard]]) -> None:
         async for letter in box:
@@ -181,7 +182,7 @@ class Orchestrator:
     async def _hear_stops(self) -> None:
         while True:
             by = await self._stops.get()
-            self._world.stopped = True
+            self._world.stop()
             self._ledger.note("stop", f"stop by {by}")
             self.shell.stop(by)
 
@@ -231,10 +232,13 @@ class Orchestrator:
                 if why and not self._lost.get(spec.name):
                     self.shell.dispatcher.lose(spec.name, why)
                 self._lost[spec.name] = why
-            if self._world.stopped and self._world.all_released():
-                self._world.stopped = False
-                self._ledger.note("released", "no robot is stopped any more")
+            self._lift_stop()
             await WALL.sleep(WATCH_EVERY_S)
+
+    def _lift_stop(self) -> None:
+        if self._world.stopped and self._world.all_released():
+            self._world.stopped = False
+            self._ledger.note("released", "no robot is stopped any more")
 
     async def _status(self, sample: Sample) -> Body:
         dropped: Counter[str] = Counter(self._lost_messages)

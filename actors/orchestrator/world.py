@@ -26,6 +26,7 @@ class WorldFold:
         self._values: dict[str, StampedValue] = {}
         self._gone: dict[str, str] = {}
         self._ended: dict[str, str] = {}
+        self._unlatched: set[str] = set()
 
     def knows(self, robot: str) -> bool:
         """Whether the crew has a robot of this name."""
@@ -52,6 +53,8 @@ class WorldFold:
         older = known is not None and state.at_ns < known.at_ns <= now_ns + FUTURE_NS
         if card is None or card.boot_id != state.boot_id or older:
             return
+        if state.stopped:
+            self._unlatched.discard(state.robot)
         self._states[state.robot] = state
         self._received[state.robot] = (now_ns, WALL.now_ns())
 
@@ -69,6 +72,8 @@ class WorldFold:
         card = self.cards.get(event.robot)
         if card is None or card.boot_id != event.boot_id:
             return
+        if event.what in ("stopped", "released"):
+            self._unlatched.discard(event.robot)
         if event.what in ("succeeded", "failed", "cancelled", "refused"):
             self._ended[event.robot] = f"{event.mission}/{event.sequence}"
 
@@ -89,9 +94,15 @@ class WorldFold:
         silent_ns = WALL.now_ns() - received[1]
         return f"frozen: no state for {silent_ns / 1e9:.1f} s" if silent_ns > seconds_ns(SILENT_S) else ""
 
+    def stop(self) -> None:
+        """A stop is in force until every robot that is heard was seen latched, and is released."""
+        self.stopped = True
+        self._unlatched = set(self._names)
+
     def all_released(self) -> bool:
-        """Whether no robot that is heard says that its stop is latched."""
-        return not any(s.stopped for name, s in self._states.items() if not self.lost(name))
+        """Whether every robot that is heard has latched since the stop, and none is latched now."""
+        heard = [name for name in self._states if not self.lost(name)]
+        return not any(self._states[name].stopped or name in self._unlatched for name in heard)
 
     def dropped(self) -> dict[str, int]:
         """How many messages each robot says that it dropped; robots that dropped none are left out."""

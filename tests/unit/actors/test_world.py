@@ -138,10 +138,33 @@ def test_another_ones_word_ends_no_dispatch(world: WorldFold, changes: dict[str,
 
 
 def test_a_stop_is_released_when_no_robot_that_is_heard_is_latched(world: WorldFold) -> None:
-    world.take_state(state(stopped=True), now_ns=1)
-    world.take_state(state("iris", stopped=False), now_ns=1)
+    for robot in ("iris", "tb3"):
+        world.take_state(state(robot), now_ns=1)
+    world.stop()
+    assert not world.all_released(), "neither has said yet that it is latched"
+    world.take_state(state(at_ns=11, stopped=True), now_ns=1)
+    world.take_state(state("iris", at_ns=11, stopped=True), now_ns=1)
     assert not world.all_released()
-    world.take_state(state(at_ns=11, stopped=False), now_ns=2)
+    world.take_state(state(at_ns=12), now_ns=2)
+    assert not world.all_released()
+    world.take_state(state("iris", at_ns=12), now_ns=2)
+    assert world.all_released()
+
+
+def test_a_robot_that_does_not_confirm_a_stop_keeps_it_in_force(world: WorldFold) -> None:
+    world.take_state(state(), now_ns=1)
+    world.stop()
+    for at_ns in (11, 12):
+        world.take_state(state(at_ns=at_ns), now_ns=1)
+    assert not world.all_released()
+    world.take_event(_event("released", 0))
+    assert world.all_released()
+
+
+def test_a_robot_that_is_lost_does_not_keep_a_stop_in_force(world: WorldFold) -> None:
+    world.take_state(state(stopped=True), now_ns=1)
+    world.stop()
+    world.take_liveliness("tb3", alive=False)
     assert world.all_released()
 
 
