@@ -8,6 +8,7 @@ import msgspec
 from crew.actors.planner.process import make_backend
 from crew.cli.output import coloured, plan_lines, say, say_json
 from crew.contracts.gate.authorize import Gate
+from crew.contracts.language.containment import check_reading
 from crew.contracts.language.lexicon import build_lexicon
 from crew.contracts.language.mention import Mention, Reading
 from crew.contracts.language.reading import read_request
@@ -120,7 +121,7 @@ def _result(plan: Plan | None, reason: str, reading: Reading, verdict: Validatio
         reason=reason,
         mentions=[_mention(m) for m in reading.mentions],
         unread=[u.word for u in reading.unread],
-        verdict=_verdict(verdict, reason),
+        verdict=_verdict(verdict, reason, reading),
     )
 
 
@@ -136,9 +137,11 @@ def _mention(mention: Mention) -> Mapping[str, Any]:
     }
 
 
-def _verdict(verdict: Validation | None, reason: str) -> Mapping[str, Any]:
+def _verdict(verdict: Validation | None, reason: str, reading: Reading) -> Mapping[str, Any]:
     if verdict is None:
-        return {"accepted": False, "code": None, "message": f"no plan: {reason}", "question": None}
+        finding = check_reading(reading)
+        code, more = (None, "") if finding is None else (str(finding.code), f"; {finding.message}")
+        return {"accepted": False, "code": code, "message": f"no plan: {reason}{more}", "question": None}
     if verdict.refusal is not None:
         return {
             "accepted": False,
@@ -163,13 +166,11 @@ def _say(plan: Plan | None, reason: str, reading: Reading, verdict: Validation |
         say(f"  {unread.word!r:28} not understood")
     for doubt in reading.ambiguous:
         say(f"  {reading.text[slice(*doubt.span)]!r:28} ambiguous: {doubt.why}")
-    if plan is None:
-        say(f"no plan: {reason}")
-    else:
+    if plan is not None:
         say(f"the plan: {plan.contract}")
         for line in plan_lines(_planned(plan, reading, verdict, rules)):
             say(f"  {line}")
-    result = _verdict(verdict, reason)
+    result = _verdict(verdict, reason, reading)
     colour = "green" if result["accepted"] else "amber" if result["question"] else "red"
     code = f"{result['code']}: " if result["code"] else ""
     say(coloured(f"verdict: {code}{result['question'] or result['message']}", colour))
