@@ -31,7 +31,7 @@ def desk(tmp_path_factory: pytest.TempPathFactory) -> Desk:
 
 @pytest.fixture
 def up(desk: Desk) -> Iterator[Up]:
-    with desk.up(speed="4") as up:
+    with desk.up() as up:
         yield up
 
 
