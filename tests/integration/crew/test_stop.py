@@ -36,15 +36,18 @@ def up(desk: Desk) -> Iterator[Up]:
 
 
 @pytest.fixture
-async def watch(up: Up) -> AsyncIterator[Watch]:
+async def watch(desk: Desk, up: Up) -> AsyncIterator[Watch]:
+    """A session with the crew, which is released after each test."""
     async with watching(up.running.endpoint) as watch:
+        await watch.until(lambda: set(BOTH) <= watch.states.keys(), why="states")
         yield watch
+        await released(watch, desk)
 
 
 async def stopped(watch: Watch, body: Body) -> None:
     """Put one message on the stop key; wait until both robots say that they are latched and stand still."""
     watch.put(watch.keys.stop, body, qos=Qos.STOP)
-    await watch.until(lambda: all(watch.states[r].stopped for r in BOTH if r in watch.states), why="latched")
+    await watch.until(lambda: all(watch.states[r].stopped for r in BOTH), why="latched")
     await watch.until(lambda: all(watch.states[r].stopped and watch.states[r].still for r in BOTH), 60.0, "still")
 
 
