@@ -48,15 +48,18 @@ class VerifyReport(msgspec.Struct, frozen=True, kw_only=True):
 
 
 def verify_run(folder: Path, home: Home, *, key_file: Path | None = None) -> VerifyReport:
-    """Check a run's journal against its keys, its outside head and the code. Raises UsageError if there is no run."""
+    """Check a run's journal against its keys, its outside head and the code. Raises UsageError if there is no run.
+
+    A run of another machine comes with its `key_file`; its outside head, `<run>.json`, is looked for beside that.
+    """
     path = folder / JOURNAL
     if not path.is_file():
         raise UsageError(f"{folder} holds no {JOURNAL}; name a folder of a run (crew runs)")
     public = load_public_key(key_file or home.keys / "orchestrator.pub")
-    outside = home.head(folder.name)
+    outside = home.head(folder.name) if key_file is None else key_file.parent / f"{folder.name}.json"
     chain = check_chain(path, public, outside if outside.is_file() else None)
     problems = list(chain.problems)
-    if not outside.is_file():
+    if key_file is None and not outside.is_file():
         problems.append(f"no head of run {folder.name} outside its folder ({outside}): a cut tail could not be noticed")
     replay = Replay()
     try:

@@ -4,6 +4,8 @@ import asyncio
 from importlib.metadata import version
 from pathlib import Path
 
+from msgspec.structs import replace
+
 from crew.actors.orchestrator.actor import Orchestrator
 from crew.actors.orchestrator.ledger import Ledger
 from crew.actors.specs import OrchestratorSpec
@@ -76,9 +78,15 @@ def run_record(spec: OrchestratorSpec, rules: Rules, run: str) -> RunRecord:
         epoch=spec.epoch,
         authorizer="gate",
         planner=spec.planner,
-        rules=pack(rules),
+        rules=pack(_without_folders(rules)),
         rules_digest=rules.digest(),
     )
+
+
+def _without_folders(rules: Rules) -> Rules:
+    """The rules with the names of their files alone: where those lie on this machine is nobody else's business."""
+    contracts = {name: replace(found, source=Path(found.source).name) for name, found in rules.contracts.items()}
+    return replace(rules, crew=replace(rules.crew, source=Path(rules.crew.source).name), contracts=contracts)
 
 
 if __name__ == "__main__":
