@@ -243,6 +243,11 @@ class Watch:
         """Ask, and wait for the end."""
         return await self.ended(self.ask(text), seconds)
 
+    async def drives(self) -> None:
+        """A short mission completes: the crew works."""
+        ended = await self.mission(SHORT_DRIVE)
+        assert ended.outcome == "completed", ended.text
+
     async def status(self) -> CrewStatus:
         status = await query_status(self.bus, self.keys, timeout_s=5.0)
         assert status is not None, "the orchestrator does not answer"
@@ -261,9 +266,9 @@ class Watch:
         """Wait until a robot truly moves."""
         await self.until(lambda: self._speed(robot) > mps, seconds, f"{robot} moves")
 
-    async def standing(self, robot: str, seconds: float = 60.0) -> tuple[float, float, float, float]:
-        """Wait until a robot truly stands; its pose."""
-        await self.until(lambda: 0.0 <= self._speed(robot) < 0.05, seconds, f"{robot} stands")
+    async def standing(self, robot: str, seconds: float = 60.0, mps: float = 0.05) -> tuple[float, float, float, float]:
+        """Wait until a robot truly stands (a hovering drone sways a little); its pose."""
+        await self.until(lambda: 0.0 <= self._speed(robot) < mps, seconds, f"{robot} stands")
         return self.truths[-1].poses[robot]
 
     async def landed(self, robot: str = "iris", seconds: float = 90.0) -> None:

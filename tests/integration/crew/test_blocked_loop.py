@@ -36,10 +36,11 @@ async def test_a_drone_whose_loop_is_blocked_stops_at_once(desk: Desk, block: Ca
         watch, iris = crew.watch, crew.threads["iris"]
         search = watch.ask(SEARCH)
         await watch.airborne()
-        await watch.moving("iris", mps=1.0)
+        await watch.until(lambda: watch.height() > 4.0, why="it sweeps")
+        await watch.moving("iris", mps=1.5)
         over = iris.block(block)
         watch.put(watch.keys.stop, Stop(by="operator"), qos=Qos.STOP)
-        await watch.standing("iris", BLOCKED_S - 1.0)
+        await watch.standing("iris", BLOCKED_S - 1.0, mps=0.3)
         assert not over.is_set(), "its loop was blocked all the time"
         assert crew.adapters["iris"].latched
         assert watch.height() > 1.0, "it hovers"
@@ -76,11 +77,12 @@ async def test_robots_stop_while_the_orchestrators_loop_is_blocked(desk: Desk) -
         watch = crew.watch
         search = watch.ask(SEARCH)
         await watch.airborne()
-        await watch.moving("iris", mps=1.0)
+        await watch.until(lambda: watch.height() > 4.0, why="it sweeps")
+        await watch.moving("iris", mps=1.5)
         over = crew.threads["orchestrator"].block(asleep)
         watch.put(watch.keys.stop, Stop(by="operator"), qos=Qos.STOP)
         await watch.until(lambda: watch.states["iris"].stopped and watch.states["tb3"].stopped, 1.5, "both latch")
-        await watch.standing("iris", BLOCKED_S - 1.5)
+        await watch.standing("iris", BLOCKED_S - 1.5, mps=0.3)
         assert not over.is_set(), "the orchestrator knew nothing of it"
         assert (await watch.ended(search)).outcome == "halted"
         await watch.landed()

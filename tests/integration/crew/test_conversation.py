@@ -41,7 +41,7 @@ async def watch(up: Up) -> AsyncIterator[Watch]:
     pids = up.children()
     async with watching(up.running.endpoint) as watch:
         yield watch
-        assert (await watch.mission(SHORT_DRIVE)).outcome == "completed"
+        await watch.drives()
     assert up.children() == pids
 
 
@@ -197,7 +197,7 @@ async def test_text_json_and_msgpack_are_read_alike_and_the_id_comes_back(watch:
 async def test_missions_of_different_robots_run_side_by_side(watch: Watch) -> None:
     search = watch.ask(SHORT_SEARCH)
     await watch.airborne()
-    assert (await watch.mission(SHORT_DRIVE)).outcome == "completed"
+    await watch.drives()
     assert not any(e.final for e in watch.of(search)), "the drone still searches"
     assert (await watch.ended(search)).outcome == "completed"
 

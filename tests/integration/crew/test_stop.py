@@ -103,7 +103,7 @@ async def test_one_message_stops_everything_in_mid_mission(watch: Watch, desk: D
     assert len(intents(up.run)) == sent, "a stopped crew is sent nothing"
     assert (await watch.status()).stopped
     await released(watch, desk)
-    assert (await watch.mission(SHORT_DRIVE)).outcome == "completed"
+    await watch.drives()
 
 
 async def test_while_latched_nothing_is_accepted_by_anybody(watch: Watch, desk: Desk, up: Up) -> None:
@@ -179,4 +179,4 @@ async def test_stop_and_reset_on_the_command_line(watch: Watch, desk: Desk) -> N
     assert done.returncode == 0, done.stdout + done.stderr
     assert "tb3: released" in done.stdout
     await watch.until(lambda: not any(watch.states[r].stopped for r in BOTH), why="released")
-    assert (await watch.mission(SHORT_DRIVE)).outcome == "completed"
+    await watch.drives()
