@@ -5,6 +5,7 @@ Semantics live in `matching`, `gate` and `mission`; files are read by `contract_
 
 from collections.abc import Mapping
 from enum import StrEnum
+from functools import cached_property
 
 import msgspec
 
@@ -108,7 +109,7 @@ class Never(msgspec.Struct, frozen=True, kw_only=True):
     line: int = 0
 
 
-class Contract(msgspec.Struct, frozen=True, kw_only=True):
+class Contract(msgspec.Struct, frozen=True, kw_only=True, dict=True):
     """A workflow contract, as loaded and checked against the crew's kinds."""
 
     name: str
@@ -125,8 +126,12 @@ class Contract(msgspec.Struct, frozen=True, kw_only=True):
     preempts: bool = False
     source: str = ""
 
+    @cached_property
+    def _step_by_name(self) -> dict[str, Step]:
+        return {s.name: s for s in self.steps}
+
     def step(self, name: str) -> Step | None:
-        return next((s for s in self.steps if s.name == name), None)
+        return self._step_by_name.get(name)
 
     def slot(self, name: str) -> Slot | None:
         return next((s for s in self.slots if s.name == name), None)

@@ -2,6 +2,7 @@
 
 import hashlib
 from collections.abc import Mapping
+from functools import cached_property
 
 import msgspec
 
@@ -72,7 +73,7 @@ class InstanceStep(msgspec.Struct, frozen=True, kw_only=True):
     """Present predecessors: `after`, closed over optional steps that the plan leaves out."""
 
 
-class Instance(msgspec.Struct, frozen=True, kw_only=True):
+class Instance(msgspec.Struct, frozen=True, kw_only=True, dict=True):
     """A plan matched to its contract under one binding of roles and slots."""
 
     contract: str
@@ -80,8 +81,12 @@ class Instance(msgspec.Struct, frozen=True, kw_only=True):
     slots: Mapping[str, SlotValue]
     steps: tuple[InstanceStep, ...]
 
+    @cached_property
+    def _step_by_name(self) -> dict[str, InstanceStep]:
+        return {s.step: s for s in self.steps}
+
     def step(self, name: str) -> InstanceStep | None:
-        return next((s for s in self.steps if s.step == name), None)
+        return self._step_by_name.get(name)
 
 
 def digest(value: object) -> str:

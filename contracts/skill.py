@@ -37,7 +37,7 @@ def entity(what: Entity, about: str) -> Meta:
     return Meta(description=about, extra={"entity": what.value})
 
 
-class Param(msgspec.Struct, frozen=True, kw_only=True):
+class Param(msgspec.Struct, frozen=True, kw_only=True, dict=True):
     """One argument of a skill, read off its `SkillArgs`."""
 
     name: str
@@ -50,7 +50,7 @@ class Param(msgspec.Struct, frozen=True, kw_only=True):
     about: str = ""
     optional: bool = False
 
-    @property
+    @cached_property
     def is_number(self) -> bool:
         return self.entity is Entity.NONE
 

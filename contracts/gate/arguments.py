@@ -1,10 +1,10 @@
 """The first two groups of checks: does the robot have the skill, and are the arguments what the skill declares?"""
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterator
 from difflib import get_close_matches
 
-from crew.contracts.codes import Code
+from crew.contracts.codes import ORDER, Code
 from crew.contracts.plan import ArgValue, Call
 from crew.contracts.refusal import Refusal, show
 from crew.contracts.site import Rules
@@ -25,20 +25,26 @@ def check_call(call: Call, rules: Rules) -> Refusal | None:
 
 
 def check_arguments(call: Call, skill: Skill, rules: Rules) -> Refusal | None:
-    """Missing, unknown and wrongly typed arguments, unknown names, values out of bounds."""
+    """Missing, unknown and wrongly typed arguments, unknown names, values out of bounds: the earliest code counts."""
     return (
         _missing(call, skill)
         or _unknown(call, skill)
-        or _first(_bad_value(call, p) for p in skill.params)
-        or _swapped(call, skill)
-        or _first(_unknown_name(call, p, rules) for p in skill.params if p.entity is not Entity.OBJECT)
-        or _first(_unknown_name(call, p, rules) for p in skill.params if p.entity is Entity.OBJECT)
-        or _first(_out_of_bounds(call, p, rules) for p in skill.params)
+        or min(_problems(call, skill, rules), key=lambda refusal: ORDER[refusal.code], default=None)
     )
 
 
-def _first(refusals: Iterable[Refusal | None]) -> Refusal | None:
-    return next((r for r in refusals if r is not None), None)
+def _problems(call: Call, skill: Skill, rules: Rules) -> Iterator[Refusal]:
+    """What is wrong with the values: at most one problem for each argument, and swapped ranges."""
+    for param in skill.params:
+        if param.name in call.args:
+            problem = _bad_value(call, param)
+            if problem is None:
+                problem = _out_of_bounds(call, param, rules) if param.is_number else _unknown_name(call, param, rules)
+            if problem is not None:
+                yield problem
+    swapped = _swapped(call, skill)
+    if swapped is not None:
+        yield swapped
 
 
 def _missing(call: Call, skill: Skill) -> Refusal | None:
@@ -64,8 +70,6 @@ def _unknown(call: Call, skill: Skill) -> Refusal | None:
 
 
 def _bad_value(call: Call, param: Param) -> Refusal | None:
-    if param.name not in call.args:
-        return None
     value = call.args[param.name]
     if not param.is_number:
         if isinstance(value, str) and value:
@@ -90,9 +94,7 @@ def _is_finite(value: float) -> bool:
 
 
 def _unknown_name(call: Call, param: Param, rules: Rules) -> Refusal | None:
-    value = call.args.get(param.name)
-    if param.is_number or not isinstance(value, str):
-        return None
+    value = str(call.args[param.name])
     code = Code.UNKNOWN_OBJECT if param.entity is Entity.OBJECT else Code.UNKNOWN_LOCATION
     valid = names_for(param.entity, rules)
     if value in valid:
@@ -123,9 +125,8 @@ def bounds(param: Param, rules: Rules) -> tuple[float, float]:
 
 
 def _out_of_bounds(call: Call, param: Param, rules: Rules) -> Refusal | None:
-    value = call.args.get(param.name)
-    if not param.is_number or not isinstance(value, int | float):
-        return None
+    value = call.args[param.name]
+    assert not isinstance(value, str), "checked before"
     low, high = bounds(param, rules)
     if low <= value <= high:
         return None
