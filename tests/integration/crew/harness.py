@@ -30,7 +30,7 @@ NAME = "air_ground"
 UP_S = 40.0
 MISSION_S = 120.0
 SHORT_DRIVE = "send the rover to (-3, -3)"
-FAR_DRIVE = "send the rover to (9, 9)"
+FAR_DRIVE = "send the rover to (9, -5.5)"
 SHORT_SEARCH = "search x from -6 to -3 and y from -6 to -3"
 SEARCH = "search the area"
 

@@ -98,7 +98,7 @@ async def test_one_message_stops_everything_in_mid_mission(watch: Watch, desk: D
         ended = await watch.ended(request)
         assert (ended.outcome, ended.code) == ("halted", "stopped")
     x, y, *_ = await watch.standing("tb3")
-    assert math.dist((x, y), (9.0, 9.0)) > 1.0
+    assert math.dist((x, y), (9.0, -5.5)) > 1.0
     await watch.landed("iris")
     assert len(intents(up.run)) == sent, "a stopped crew is sent nothing"
     assert (await watch.status()).stopped
