@@ -161,7 +161,9 @@ class RobotStage:
         return [event.what for event in self.events]
 
     def last(self, *whats: str) -> RobotEvent:
-        return next(e for e in reversed(self.events) if e.what in whats)
+        found = [e for e in self.events if e.what in whats]
+        assert found, f"none of {whats} among {self.whats}"
+        return found[-1]
 
     async def heard(self, *whats: str) -> RobotEvent:
         """Wait for an event of one of these kinds."""

@@ -20,7 +20,7 @@ async def stage() -> AsyncIterator[RobotStage]:
 
 async def test_a_sound_dispatch_is_accepted_run_and_reported_once(stage: RobotStage) -> None:
     await stage.started()
-    assert stage.last("accepted").sequence == 1
+    assert (await stage.heard("accepted")).sequence == 1
     await stage.until(lambda: any(s.running == "m1/1" for s in stage.states), "its state says what it does")
     stage.adapter.arrive()
     await stage.heard("succeeded")

@@ -30,7 +30,7 @@ async def test_a_stop_while_idle_latches_and_makes_safe(stage: RobotStage) -> No
     await stopped(stage)
     assert stage.adapter.did == ["halt", "safe:stop"]
     assert stage.adapter.latched
-    assert stage.last("stopped").code == "stopped"
+    assert (await stage.heard("stopped")).code == "stopped"
     await stage.until(lambda: stage.states[-1].stopped, "its state says so")
 
 
