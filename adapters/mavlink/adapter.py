@@ -101,7 +101,7 @@ class MavlinkAdapter:
             if behaviour != "land":
                 await self._brake(run)
             if behaviour == "hover_then_land":
-                await run.hold(self._hover_s(), over=self._battery_low)
+                await run.hold(self._hover_s(), over=self._hover_over)
             self._repeater.finish()
             if behaviour in ("land", "hover_then_land"):
                 await self._ready().come_down(run)
@@ -284,6 +284,8 @@ class MavlinkAdapter:
     def _hover_s(self) -> float:
         return self._options.hover_s if isinstance(self._options, QuadcopterOptions) else 0.0
 
-    def _battery_low(self) -> bool:
+    def _hover_over(self) -> bool:
+        """Nothing to wait for: it is on the ground, or its battery is low."""
         battery = self._vehicle.telemetry.battery_percent
-        return battery is not None and battery.value < self._options.min_battery_percent
+        low = battery is not None and battery.value < self._options.min_battery_percent
+        return low or self._ready().grounded

@@ -34,8 +34,8 @@ def plan_route(ground: Ground, start: Spot, target: Spot, standoff_m: float, cel
 def _search(
     ground: Ground, grid: Grid, start: Spot, target: Spot, standoff_m: float, cell_m: float
 ) -> list[Cell] | None:
-    """Cells from the one of `start` to one beside the target, cheapest first."""
-    first = grid.cell(start)
+    """Cells from one beside `start` to one beside the target, cheapest first."""
+    first = _first_cell(ground, grid, start)
     came: dict[Cell, Cell | None] = {first: None}
     cost = {first: 0.0}
     queue = [(0.0, first)]
@@ -56,6 +56,15 @@ def _search(
                 left_m = max(0.0, abs(math.dist(there, target) - standoff_m) - RING_M)
                 heapq.heappush(queue, (price + left_m, neighbour))
     return None
+
+
+def _first_cell(ground: Ground, grid: Grid, start: Spot) -> Cell:
+    """The nearest cell that can be reached straight from `start`; its own one if there is none."""
+    column, row = grid.cell(start)
+    around = [(column + i, row + j) for i in range(-2, 3) for j in range(-2, 3)]
+    around.sort(key=lambda cell: math.dist(grid.centre(cell), start))
+    reachable = (c for c in around if ground.free(grid.centre(c)) and ground.clear(start, grid.centre(c)))
+    return next(reachable, (column, row))
 
 
 def _beside(ground: Ground, here: Spot, target: Spot, standoff_m: float, cell_m: float) -> bool:

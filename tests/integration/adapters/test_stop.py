@@ -136,3 +136,11 @@ async def test_one_skill_at_a_time() -> None:
         assert isinstance(task.exception(), AdapterError)
         with pytest.raises(AdapterError, match="no safe behaviour"):
             await stage.iris.safe("dance")
+
+
+async def test_a_parked_quadcopter_has_nothing_to_wait_for() -> None:
+    async with lockstep("iris") as stage:
+        start_ns = stage.clock.now_ns()
+        stage.iris.halt()
+        await stage.run(stage.iris.safe("hover_then_land"))
+        assert stage.clock.now_ns() - start_ns < 2e9

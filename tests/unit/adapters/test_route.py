@@ -73,6 +73,11 @@ def test_a_start_too_close_to_an_obstacle_can_be_left() -> None:
     assert route([(1.0, 0.0, 0.5)], (0.45, 0.0), (-3.0, 0.0))[-1] == (-3.0, 0.0)
 
 
+def test_a_start_whose_own_cell_is_blocked_can_be_left() -> None:
+    discs = [(-2.0, -1.2, 0.4242640687119285), (-3.0, 4.5, 0.7211102550927978), (0.0, 1.0, 1.772004514666935)]
+    assert route(discs, (-2.251, 0.832), (-3.0, -3.0))[-1] == (-3.0, -3.0)
+
+
 def test_clearance_is_given_up_for_a_target_that_needs_it_but_the_robots_size_is_not() -> None:
     assert route([(5.0, 5.0, 0.5)], (0.0, 0.0), (4.25, 5.0))[-1] == (4.25, 5.0)
     with pytest.raises(AdapterError):
