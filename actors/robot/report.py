@@ -38,7 +38,7 @@ class Reporter:
             simulated=not spec.connection,
         )
         self._states = bus.publisher(keys.robot_state(spec.name), qos=Qos.STATE)
-        self._events = bus.publisher(keys.robot_event(spec.name), qos=Qos.EVENT)
+        self._events = bus.publisher(keys.robot_event(spec.name), qos=Qos.ACTUATION)
         self._cards = bus.publisher(keys.robot_card(spec.name), qos=Qos.EVENT)
 
     async def run(self) -> None:

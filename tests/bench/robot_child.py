@@ -38,7 +38,7 @@ class IdleAdapter:
         return
 
     async def execute(self, skill: str, args: SkillArgs, places: Mapping[str, Place]) -> None:
-        return
+        await self._clock.sleep(0.005)  # a vehicle's first answer is not instant either
 
     async def cancel(self) -> None:
         return

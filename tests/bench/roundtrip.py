@@ -90,8 +90,9 @@ async def _interleave(bus: ZenohBus, raw: RawPing, rounds: int) -> tuple[list[fl
     floors, trips = [], []
     for number in range(1, rounds + WARM_UP + 1):
         floors.append(await asyncio.to_thread(raw.ping, payload))
+        dispatch = _dispatch(number, boot)
         began_ns = time.perf_counter_ns()
-        publisher.put(_dispatch(number, boot))
+        publisher.put(dispatch)
         accepted_ns = await _accepted(events, number)
         trips.append((accepted_ns - began_ns) / 1000)
     return floors[WARM_UP:], trips[WARM_UP:]
