@@ -16,6 +16,7 @@ class Member(msgspec.Struct):
     slice: int
     datagrams: int
     idle: bool
+    holding: bool
     heard_ns: int
 
 
@@ -27,10 +28,10 @@ class Lockstep:
         self.dropped = 0
         self._acks = acks
 
-    async def wait(self, number: int) -> None:
-        """Return when nobody is still working on slice `number`."""
+    async def wait(self, number: int, *, for_holders: bool) -> None:
+        """Return when nobody is still working on slice `number`; `for_holders` minds those who withhold it as well."""
         self._hear(number)
-        while waiting := [m for m in self.members.values() if m.slice < number]:
+        while waiting := [m for m in self.members.values() if m.slice < number and (for_holders or not m.holding)]:
             oldest_ns = min(m.heard_ns for m in waiting)
             left_s = SILENT_S - (WALL.now_ns() - oldest_ns) / 1e9
             if left_s <= 0:
@@ -58,7 +59,7 @@ class Lockstep:
             done = known.slice if known else ack.slice - 1
         else:
             done = ack.slice
-        self.members[ack.name] = Member(done, ack.datagrams, ack.idle, WALL.now_ns())
+        self.members[ack.name] = Member(done, ack.datagrams, ack.idle, ack.holding, WALL.now_ns())
 
     def _drop_silent(self, number: int) -> None:
         limit_ns = WALL.now_ns() - seconds_ns(SILENT_S)

@@ -17,6 +17,8 @@ from crew.sim.world import World
 SLICE_NS = 50_000_000
 AHEAD = 1
 """Slices that the world may be ahead of the slowest participant: stepping and reacting then share the time."""
+AHEAD_PACED = 10
+"""The same with `--speed N`: a machine that is too slow slows the world down, and no state goes stale by accident."""
 TRUTH_EVERY = 2
 """Slices between two messages of truth."""
 
@@ -45,8 +47,9 @@ class Simulation:
             self._publish(number)
             if self._speed:
                 await self._pace.wait(SLICE_NS / 1e9, self._speed)
+                await self._lockstep.wait(number - AHEAD_PACED, for_holders=False)
                 continue
-            await self._lockstep.wait(number - AHEAD)
+            await self._lockstep.wait(number - AHEAD, for_holders=True)
             await self._collect_datagrams()
             if self._lockstep.idle:
                 await self._pace.wait(SLICE_NS / 1e9, 1.0)

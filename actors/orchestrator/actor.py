@@ -207,6 +207,8 @@ class Orchestrator:
         if name == "simulation":
             for spec in self._rules.crew.robots:
                 self._world.take_liveliness(spec.name, alive)
+        elif name == "planner":
+            self._desk.planner_is_there(alive)
         elif self._world.knows(name):
             self._world.take_liveliness(name, alive)
 

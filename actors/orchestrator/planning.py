@@ -42,6 +42,7 @@ class PlannerDesk:
         self._bus, self._keys, self._clock, self._rules = bus, keys, clock, rules
         self._world, self._leases, self._feed, self._spawn = world, leases, feed, spawn
         self._open: dict[tuple[str, int], asyncio.Future[PlannerProposal]] = {}
+        self._gone = False
         self.box: Events[Letter[PlannerProposal]] = Events(
             letters(PlannerProposal), capacity=64, on_lost=lambda _: None
         )
@@ -50,6 +51,13 @@ class PlannerDesk:
     def ask(self, mission: MissionState, effect: ev.AskPlanner) -> None:
         """Ask for a plan; the answer, or its absence, comes back as an event."""
         self._spawn(mission.id, self._await(mission, effect.feedback))
+
+    def planner_is_there(self, there: bool) -> None:
+        """The planner's token came or went; who waits for one that is gone waits no longer."""
+        self._gone = not there
+        for (mission, attempt), future in self._open.items():
+            if self._gone and not future.done():
+                future.set_result(_nobody(mission, attempt))
 
     async def run(self) -> None:
         """Hear proposals until cancelled."""
@@ -62,6 +70,8 @@ class PlannerDesk:
         future: asyncio.Future[PlannerProposal] = asyncio.get_running_loop().create_future()
         key = (mission.id, mission.replans)
         self._open[key] = future
+        if self._gone:
+            future.set_result(_nobody(*key))
         try:
             with self._clock.busy():
                 self._bus.put(self._keys.planner_ask, self._question(mission, feedback), qos=Qos.EVENT)
@@ -95,6 +105,11 @@ class PlannerDesk:
             airborne=known_airborne(world),
             values={name: stamped.reading.status for name, stamped in world.values.items()},
         )
+
+
+def _nobody(mission: str, attempt: int) -> PlannerProposal:
+    reason = "the planner is not there; bring the crew up again (crew status)"
+    return PlannerProposal(mission=mission, attempt=attempt, planner="", reason=reason)
 
 
 def known_airborne(world: Snapshot) -> dict[str, bool]:

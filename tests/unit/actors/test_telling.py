@@ -196,6 +196,22 @@ async def test_a_planner_that_never_answers_ends_the_wait(hall: Hall, monkeypatc
     assert not hall.clock.is_busy
 
 
+async def test_a_planner_that_is_gone_is_not_waited_for(hall: Hall) -> None:
+    hall.desk.ask(mission(), ev.AskPlanner())
+    await hall.settle()
+    assert hall.fed == []
+    hall.desk.planner_is_there(False)
+    await hall.settle()
+    hall.desk.ask(mission(), ev.AskPlanner())
+    await hall.settle()
+    assert [type(event) for event in hall.fed] == [ev.PlannerFailed, ev.PlannerFailed]
+    hall.desk.planner_is_there(True)
+    hall.desk.ask(mission(), ev.AskPlanner())
+    await hall.propose()
+    assert isinstance(hall.fed[-1], ev.Proposed)
+    assert not hall.clock.is_busy
+
+
 async def test_garbage_from_the_planner_is_not_an_answer(hall: Hall) -> None:
     hall.desk.ask(mission(), ev.AskPlanner())
     await hall.settle()

@@ -67,15 +67,15 @@ async def ends(task: "asyncio.Future[None]") -> None:
 
 
 async def test_nobody_is_waited_for_before_anybody_joined(stage: Stage) -> None:
-    assert await within(stage.lockstep.wait(1), 0.5)
+    assert await within(stage.lockstep.wait(1, for_holders=True), 0.5)
 
 
 async def test_a_participant_that_joins_after_a_tick_went_out_does_not_hold_that_slice(stage: Stage) -> None:
     follower = Participant(stage.robot, KEYS, "iris", stage.clock)
     task = asyncio.ensure_future(follower.run())
     await stage.next_ack()
-    assert await within(stage.lockstep.wait(4)), "the tick of slice 4 was sent before it listened"
-    waiting = asyncio.ensure_future(stage.lockstep.wait(5))
+    assert await within(stage.lockstep.wait(4, for_holders=True)), "the tick of slice 4 was sent before it listened"
+    waiting = asyncio.ensure_future(stage.lockstep.wait(5, for_holders=True))
     assert not await within(asyncio.shield(waiting), 0.1), "from the next slice on it takes part"
     stage.tick(5)
     assert await within(waiting)
@@ -85,9 +85,9 @@ async def test_a_participant_that_joins_after_a_tick_went_out_does_not_hold_that
 
 async def test_a_participant_that_starts_anew_rejoins(stage: Stage) -> None:
     await stage.ack(7)
-    assert await within(stage.lockstep.wait(7))
+    assert await within(stage.lockstep.wait(7, for_holders=True))
     await stage.ack(-1)
-    assert await within(stage.lockstep.wait(8), 0.9), "its new life never heard slice 8"
+    assert await within(stage.lockstep.wait(8, for_holders=True), 0.9), "its new life never heard slice 8"
 
 
 async def test_a_silent_participant_drops_out_and_comes_back_with_its_next_word(
@@ -95,13 +95,13 @@ async def test_a_silent_participant_drops_out_and_comes_back_with_its_next_word(
 ) -> None:
     monkeypatch.setattr(pace_module, "SILENT_S", 0.2)
     await stage.ack(1)
-    assert await within(stage.lockstep.wait(1))
-    assert await within(stage.lockstep.wait(2))
+    assert await within(stage.lockstep.wait(1, for_holders=True))
+    assert await within(stage.lockstep.wait(2, for_holders=True))
     assert stage.lockstep.dropped == 1
     assert not stage.lockstep.members
     await stage.ack(2)
-    assert await within(stage.lockstep.wait(2))
-    waiting = asyncio.ensure_future(stage.lockstep.wait(3))
+    assert await within(stage.lockstep.wait(2, for_holders=True))
+    waiting = asyncio.ensure_future(stage.lockstep.wait(3, for_holders=True))
     assert not await within(asyncio.shield(waiting), 0.05)
     await stage.ack(3)
     assert await within(waiting)
@@ -112,8 +112,8 @@ async def test_a_participant_that_holds_is_waited_for_longer_than_a_silent_one(
 ) -> None:
     monkeypatch.setattr(pace_module, "SILENT_S", 0.3)
     await stage.ack(1)
-    assert await within(stage.lockstep.wait(1))
-    waiting = asyncio.ensure_future(stage.lockstep.wait(2))
+    assert await within(stage.lockstep.wait(1, for_holders=True))
+    waiting = asyncio.ensure_future(stage.lockstep.wait(2, for_holders=True))
     for _ in range(6):
         await stage.ack(2, holding=True)
         assert not await within(asyncio.shield(waiting), 0.1)
@@ -122,14 +122,22 @@ async def test_a_participant_that_holds_is_waited_for_longer_than_a_silent_one(
     assert stage.lockstep.dropped == 0
 
 
+async def test_a_paced_simulation_waits_for_whoever_is_behind_but_not_for_whoever_holds(stage: Stage) -> None:
+    await stage.ack(1)
+    waiting = asyncio.ensure_future(stage.lockstep.wait(2, for_holders=False))
+    assert not await within(asyncio.shield(waiting), 0.1)
+    await stage.ack(2, holding=True)
+    assert await within(waiting)
+
+
 async def test_the_simulation_hurries_as_long_as_one_participant_works(stage: Stage) -> None:
     await stage.ack(1, "iris", idle=True)
     await stage.ack(1, "tb3", idle=False)
-    assert await within(stage.lockstep.wait(1))
+    assert await within(stage.lockstep.wait(1, for_holders=True))
     assert not stage.lockstep.idle
     await stage.ack(2, "iris", idle=True)
     await stage.ack(2, "tb3", idle=True)
-    assert await within(stage.lockstep.wait(2))
+    assert await within(stage.lockstep.wait(2, for_holders=True))
     assert stage.lockstep.idle
 
 
