@@ -26,10 +26,10 @@ class Code(StrEnum):
     NOT_IN_PLAN = "not_in_plan"
     ALREADY_CONSUMED = "already_consumed"
     # containment
+    AMBIGUOUS_REQUEST = "ambiguous_request"
+    FORBIDDEN_BY_REQUEST = "forbidden_by_request"
     NOT_REQUESTED = "not_requested"
     REQUEST_DROPPED = "request_dropped"
-    FORBIDDEN_BY_REQUEST = "forbidden_by_request"
-    AMBIGUOUS_REQUEST = "ambiguous_request"
     UNREAD_WORDS = "unread_words"
     # state
     STOPPED = "stopped"
@@ -60,7 +60,7 @@ _FIRST = {
     Code.UNKNOWN_ROBOT: Group.CAPABILITY,
     Code.MISSING_ARGUMENT: Group.ARGUMENTS,
     Code.MALFORMED_PLAN: Group.WORKFLOW,
-    Code.NOT_REQUESTED: Group.CONTAINMENT,
+    Code.AMBIGUOUS_REQUEST: Group.CONTAINMENT,
     Code.STOPPED: Group.STATE,
     Code.NO_TARGET_FIX: Group.VALUES,
 }
