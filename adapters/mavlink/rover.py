@@ -21,6 +21,10 @@ from crew.errors import AdapterError
 
 MOVING_MPS = 0.1
 STILL_MPS = 0.05
+SETTLE_S = 1.5
+CLOSE_M = 0.1
+APPROACHES = 5
+"""How often what is left to the goal is driven, once the estimate has settled."""
 PASS_M = 0.25
 """A way-point between two legs is passed, not stopped at, within this distance."""
 
@@ -69,8 +73,26 @@ class RoverSkills:
         await run.command(*self._flavour.prepare(), leads_to=self._flavour.travel_modes)
         for spot in route[:-1]:
             await self._leg(run, spot, PASS_M, math.inf)
-        await self._leg(run, route[-1], self._options.arrive_m, STILL_MPS)
+        await self._approach(run, route[-1])
         await self.stop(run)
+
+    async def _approach(self, run: Run, spot: Spot) -> None:
+        """The last leg. Standing still its position estimate settles and shows what is left: drive that, a few times.
+
+        Raises AdapterError `no_progress` if it still stands further than `arrive_m` from the spot.
+        """
+        for _ in range(APPROACHES):
+            await self._leg(run, spot, 2.0 * self._options.arrive_m, STILL_MPS)
+            await run.hold(SETTLE_S)
+            if math.dist(self._here(), spot) < CLOSE_M and self._speed_mps() < STILL_MPS:
+                return
+        left_m = math.dist(self._here(), spot)
+        if left_m > self._options.arrive_m:
+            raise AdapterError(
+                f"{self._vehicle.config.robot}: stands {left_m:.2f} m from ({spot[0]:.1f}, {spot[1]:.1f}) "
+                f"after {APPROACHES} approaches, allowed {self._options.arrive_m:g} m",
+                code="no_progress",
+            )
 
     def _plan(self, place: Place) -> list[Spot]:
         options, config = self._options, self._vehicle.config

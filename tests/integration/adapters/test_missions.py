@@ -133,3 +133,12 @@ async def test_the_rover_refuses_what_it_cannot_reach() -> None:
                 await stage.run(stage.tb3.execute("navigate_to", args, places))
             assert refused.value.code == code
         assert not stage.world.truth().robots["tb3"].armed
+
+
+async def test_a_rover_that_stopped_short_drives_what_is_left() -> None:
+    async with lockstep("tb3", seed=3) as stage:
+        start = stage.world.truth().robots["tb3"]
+        goal = (start.x_m + 0.4, start.y_m)
+        await stage.run(stage.tb3.execute("navigate_to", NavigateTo(x=goal[0], y=goal[1]), {}))
+        rover = stage.world.truth().robots["tb3"]
+        assert math.hypot(rover.x_m - goal[0], rover.y_m - goal[1]) < 0.25, "0.4 m is within twice the arrival radius"
