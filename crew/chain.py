@@ -9,7 +9,6 @@ import msgspec
 from crew.signing import verify
 
 HEAD_PURPOSE = "journal-head"
-HASH_BYTES = 32
 
 _GENESIS = b"crew journal 1\0"
 _FIXED = struct.Struct(">QqqI")

@@ -42,7 +42,6 @@ class Participant:
         self._subscription = bus.subscribe(keys.clock, self._ticks)
         self._acks = bus.publisher(keys.clock_ack(name), qos=Qos.EVENT)
         self._lost = 0
-        self.slices = 0
 
     def notice_traffic(self) -> None:
         """Told by the adapter that datagrams were handled."""
@@ -68,7 +67,6 @@ class Participant:
         while self._clock.is_busy:
             await self._hold(tick.slice, lambda: not self._clock.is_busy, self._clock.idle_event)
             await turn()
-        self.slices += 1
         self._ack(tick.slice)
 
     async def _await_datagrams(self, tick: ClockTick) -> None:

@@ -12,7 +12,6 @@ from cryptography.hazmat.primitives.asymmetric.ed25519 import Ed25519PrivateKey,
 from crew.errors import UsageError
 
 KEY_BYTES = 32
-SIGNATURE_BYTES = 64
 
 
 class SigningKey:

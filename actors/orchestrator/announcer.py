@@ -40,7 +40,7 @@ class Announcer:
         """Say what an event has changed."""
         self._say_event(old, new, event)
         if new.phase is not old.phase:
-            self._say_phase(old, new)
+            self._say_phase(new)
 
     def value(self, mission: MissionState, reading: ValueReading, source: str) -> None:
         """A run-time value was published while the mission ran."""
@@ -61,7 +61,7 @@ class Announcer:
             case ev.PlannerFailed():
                 self._put(new, "phase", f"the planner gave no plan: {event.reason}")
             case ev.Validated():
-                self._say_validation(old, new, event)
+                self._say_validation(new, event)
             case ev.Answered():
                 self._put(new, "phase", "confirmed" if new.phase is not old.phase else "answer to another question")
             case ev.Decided():
@@ -77,7 +77,7 @@ class Announcer:
             case _:
                 pass
 
-    def _say_validation(self, old: MissionState, new: MissionState, event: ev.Validated) -> None:
+    def _say_validation(self, new: MissionState, event: ev.Validated) -> None:
         verdict = event.validation
         if verdict.refusal is not None:
             again = "; asking for another plan" if new.phase is Phase.PLANNING else ""
@@ -107,7 +107,7 @@ class Announcer:
                 text = f"{record.call.robot}: {record.call.skill} {said}"
                 self._put(new, what, text, step=name, robot=record.call.robot, code=code)
 
-    def _say_phase(self, old: MissionState, new: MissionState) -> None:
+    def _say_phase(self, new: MissionState) -> None:
         if new.phase in ENDS:
             self._say_end(new)
         elif new.phase in (Phase.HALTING, Phase.CANCELLING):

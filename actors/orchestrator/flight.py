@@ -14,7 +14,6 @@ from crew.contracts.mission.record import find
 from crew.contracts.mission_state import MissionState
 from crew.contracts.plan import digest
 from crew.contracts.site import Rules
-from crew.contracts.snapshot import Point
 from crew.errors import JournalError
 from crew.journal import Ticket
 from crew.keys import Keys
@@ -172,7 +171,6 @@ class Dispatcher:
         assert found is not None
         issued_ns = found[1].dispatched_ns
         contract = self._rules.contracts[mission.instance.contract]
-        places: dict[str, Point] = dict(found[1].places)
         return Dispatch(
             mission=mission.id,
             step=effect.step,
@@ -181,7 +179,7 @@ class Dispatcher:
             robot=effect.call.robot,
             skill=effect.call.skill,
             args=effect.call.args,
-            places=places,
+            places=effect.places,
             epoch=self._epoch,
             lease=mission.id,
             boot_id=self._world.cards[effect.call.robot].boot_id,

@@ -8,6 +8,7 @@ from crew.contracts.decision import Decision
 from crew.contracts.mission.validation import Validation
 from crew.contracts.plan import Call, Plan
 from crew.contracts.refusal import Refusal
+from crew.contracts.snapshot import Point
 
 
 class Event(msgspec.Struct, frozen=True, kw_only=True):
@@ -166,7 +167,7 @@ class Send(Effect, frozen=True, kw_only=True, tag="send"):
     sequence: int
     call: Call
     step: str
-    places: Mapping[str, object] = {}
+    places: Mapping[str, Point] = {}
 
 
 class CancelRunning(Effect, frozen=True, kw_only=True, tag="cancel_running"):
