@@ -25,6 +25,8 @@ STILL_MPS = 0.25
 PASS_M = 0.8
 """A corner of a sweep is passed, not stopped at, within this distance."""
 ON_GROUND_M = 0.5
+ASIDE_M = 2.0
+"""It lands no nearer than this, east-west and north-south, to a person that it has just found."""
 
 
 class QuadcopterSkills:
@@ -74,6 +76,7 @@ class QuadcopterSkills:
                 check_inside(self._vehicle.config, args.x, args.y, "fly_to")
                 await self.travel(run, args.x, args.y, args.altitude, None)
             case Land():
+                await self._move_aside(run)
                 await self.come_down(run)
             case _:
                 raise AdapterError(f"a quadcopter has no skill with {type(args).__name__}", code="unknown_skill")
@@ -120,6 +123,19 @@ class QuadcopterSkills:
         if run.moved and airborne is not None and not airborne.value and self._motion().height_m < ON_GROUND_M:
             run.permit.check()
             await self._vehicle.commander.send(self._flavour.disarm, run.permit)
+
+    async def _move_aside(self, run: Run) -> None:
+        """Never land on the person it has found, nor where a ground robot will stop: move away from above the fix."""
+        found, told = self._values.get(VICTIM), self._vehicle.telemetry.motion
+        if found is None or found.status != "ok" or found.position is None or told is None or self.grounded:
+            return
+        here, person = told.value, found.position
+        if not math.hypot(here.x_m - person.x, here.y_m - person.y) < ASIDE_M:
+            return
+        x_min, x_max, y_min, y_max = self._vehicle.config.area
+        x_m = person.x + math.copysign(ASIDE_M, (x_min + x_max) / 2 - person.x)
+        y_m = person.y + math.copysign(ASIDE_M, (y_max + y_min) / 2 - person.y)
+        await self.travel(run, x_m, y_m, here.height_m, None)
 
     async def _search(self, run: Run, args: SearchTarget) -> None:
         self._require_airborne("search_target")

@@ -142,3 +142,14 @@ async def test_a_rover_that_stopped_short_drives_what_is_left() -> None:
         await stage.run(stage.tb3.execute("navigate_to", NavigateTo(x=goal[0], y=goal[1]), {}))
         rover = stage.world.truth().robots["tb3"]
         assert math.hypot(rover.x_m - goal[0], rover.y_m - goal[1]) < 0.25, "0.4 m is within twice the arrival radius"
+
+
+async def test_a_drone_does_not_land_on_the_person_it_has_found() -> None:
+    async with lockstep("iris", seed=3) as stage:
+        await fly(stage, "takeoff", Takeoff(altitude=5))
+        await fly(stage, "search_target", NEAR_VICTIM)
+        await fly(stage, "land", Land())
+        truth = stage.world.truth()
+        drone = truth.robots["iris"]
+        assert math.hypot(drone.x_m - truth.victim_x_m, drone.y_m - truth.victim_y_m) > 2.0
+        assert drone.contacts == 0
