@@ -26,7 +26,7 @@ PASS_M = 0.8
 """A corner of a sweep is passed, not stopped at, within this distance."""
 ON_GROUND_M = 0.5
 ASIDE_M = 2.0
-"""It lands no nearer than this, east-west and north-south, to a person that it has just found."""
+"""It lands no nearer than this to a person that it has just found."""
 
 
 class QuadcopterSkills:
@@ -132,10 +132,17 @@ class QuadcopterSkills:
         here, person = told.value, found.position
         if not math.hypot(here.x_m - person.x, here.y_m - person.y) < ASIDE_M:
             return
-        x_min, x_max, y_min, y_max = self._vehicle.config.area
-        x_m = person.x + math.copysign(ASIDE_M, (x_min + x_max) / 2 - person.x)
-        y_m = person.y + math.copysign(ASIDE_M, (y_max + y_min) / 2 - person.y)
+        x_m, y_m = self._clearest_around(person.x, person.y)
         await self.travel(run, x_m, y_m, here.height_m, None)
+
+    def _clearest_around(self, x_m: float, y_m: float) -> tuple[float, float]:
+        """Of the spots a little beyond `ASIDE_M` from a point, the one furthest from every known obstacle."""
+        config = self._vehicle.config
+        x_min, x_max, y_min, y_max = config.area
+        reach_m, turns = ASIDE_M + 0.5, [math.tau * i / 12 for i in range(12)]
+        around = [(x_m + reach_m * math.cos(a), y_m + reach_m * math.sin(a)) for a in turns]
+        inside = [(x, y) for x, y in around if x_min <= x <= x_max and y_min <= y <= y_max] or [(x_m, y_m)]
+        return max(inside, key=lambda p: min((math.dist(p, (x, y)) - r for x, y, r in config.obstacles), default=0.0))
 
     async def _search(self, run: Run, args: SearchTarget) -> None:
         self._require_airborne("search_target")
