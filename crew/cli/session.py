@@ -2,6 +2,7 @@
 
 import asyncio
 import os
+import signal
 from collections.abc import AsyncIterator, Coroutine
 from contextlib import AsyncExitStack, asynccontextmanager
 from typing import Any
@@ -56,5 +57,25 @@ async def operator(crew: str) -> AsyncIterator[tuple[Bus, Keys, Running]]:
 
 
 def run(work: Coroutine[Any, Any, int]) -> int:
-    """Run a command's coroutine to its exit code."""
-    return asyncio.run(work)
+    """Run a command's coroutine to its exit code. SIGTERM ends it in an orderly way, as Ctrl-C does."""
+    return asyncio.run(_heeding_sigterm(work))
+
+
+async def _heeding_sigterm(work: Coroutine[Any, Any, int]) -> int:
+    """Cancel `work` at the first SIGTERM; a second one does not cut its clean-up short."""
+    task = asyncio.current_task()
+    assert task is not None
+    terminated = asyncio.Event()
+
+    def terminate() -> None:
+        if not terminated.is_set():
+            terminated.set()
+            task.cancel()
+
+    asyncio.get_running_loop().add_signal_handler(signal.SIGTERM, terminate)
+    try:
+        return await work
+    except asyncio.CancelledError:
+        if terminated.is_set():
+            return 128 + signal.SIGTERM
+        raise

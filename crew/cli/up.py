@@ -1,12 +1,11 @@
 """`crew up`: a crew until Ctrl-C, with its missions and its losses on the terminal."""
 
 import asyncio
-import signal
 import time
 
 from crew.cli.follow import event_box
 from crew.cli.output import coloured, say, say_event
-from crew.cli.session import home
+from crew.cli.session import home, run
 from crew.launch.live import UNSECURED, LiveCrew, live_crew
 from crew.launch.options import LaunchOptions
 from crew.mailbox import Events, Letter, letters
@@ -22,16 +21,11 @@ LOSS = {
 
 
 def run_up(options: LaunchOptions) -> int:
-    """0 after Ctrl-C, 1 if a process died meanwhile."""
-    return asyncio.run(_up(options))
+    """0 after Ctrl-C or SIGTERM, 1 if a process died meanwhile."""
+    return run(_up(options))
 
 
 async def _up(options: LaunchOptions) -> int:
-    task = asyncio.current_task()
-    assert task is not None
-    loop = asyncio.get_running_loop()
-    for number in (signal.SIGINT, signal.SIGTERM):
-        loop.add_signal_handler(number, task.cancel)
     began = time.monotonic()
     losses = Losses()
     try:
