@@ -42,6 +42,8 @@ class Participant:
         self._subscription = bus.subscribe(keys.clock, self._ticks)
         self._acks = bus.publisher(keys.clock_ack(name), qos=Qos.EVENT)
         self._lost = 0
+        self._down_at = -1
+        """Datagrams received when one was last given up: until another comes, the link counts as down."""
 
     def notice_traffic(self) -> None:
         """Told by the adapter that datagrams were handled."""
@@ -72,9 +74,18 @@ class Participant:
     async def _await_datagrams(self, tick: ClockTick) -> None:
         """Wait for what the simulation sent to this link; what has not come after a while counts as lost for good."""
         expected = tick.datagrams.get(self._name, 0)
-        arrived = self._hold(tick.slice, lambda: self._counts()[1] + self._lost >= expected, self._traffic)
-        if not await WALL.race(arrived, LOST_AFTER_S):
-            self._lost = expected - self._counts()[1]
+        if self._received == self._down_at:
+            self._lost = expected - self._received
+            return
+        arrived = self._hold(tick.slice, lambda: self._received + self._lost >= expected, self._traffic)
+        if await WALL.race(arrived, LOST_AFTER_S):
+            self._lost = min(self._lost, expected - self._received)
+        else:
+            self._lost, self._down_at = expected - self._received, self._received
+
+    @property
+    def _received(self) -> int:
+        return self._counts()[1]
 
     async def _hold(self, number: int, done: Callable[[], bool], event: asyncio.Event) -> None:
         """Wait until `done`, showing a sign of life now and then."""

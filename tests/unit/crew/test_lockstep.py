@@ -185,3 +185,29 @@ async def test_a_lost_datagram_delays_one_slice_and_no_other(stage: Stage, monke
         monkeypatch.setattr(lockstep_module, "LOST_AFTER_S", 60.0)
     assert stage.clock.now_ns() == 2 * SLICE_NS
     await ends(task)
+
+
+async def test_a_link_that_is_down_delays_one_slice_and_is_waited_for_again_once_it_is_back(
+    stage: Stage, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(lockstep_module, "LOST_AFTER_S", 0.1)
+    received = 0
+    follower = Participant(stage.robot, KEYS, "iris", stage.clock, counts=lambda: (0, received))
+    task = asyncio.ensure_future(follower.run())
+    try:
+        assert (await stage.next_ack()).slice == -1
+        stage.tick(1, datagrams=3)
+        assert (await stage.next_ack()).slice == 1, "three datagrams are given up"
+        monkeypatch.setattr(lockstep_module, "LOST_AFTER_S", 60.0)
+        stage.tick(2, datagrams=6)
+        assert (await stage.next_ack()).slice == 2, "nothing came since: the link is down"
+        received = 2
+        stage.tick(3, datagrams=7)
+        assert (await stage.next_ack()).slice == 3, "of those given up two were late, not lost"
+        stage.tick(4, datagrams=8)
+        assert (await stage.next_ack()).holding, "the eighth is on its way"
+        received = 4
+        follower.notice_traffic()
+        assert (await stage.next_ack()).slice == 4
+    finally:
+        await ends(task)
