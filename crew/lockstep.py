@@ -74,14 +74,20 @@ class Participant:
     async def _await_datagrams(self, tick: ClockTick) -> None:
         """Wait for what the simulation sent to this link; what has not come after a while counts as lost for good."""
         expected = tick.datagrams.get(self._name, 0)
-        if self._received == self._down_at:
+        if await self._is_down():
             self._lost = expected - self._received
             return
         arrived = self._hold(tick.slice, lambda: self._received + self._lost >= expected, self._traffic)
-        if await WALL.race(arrived, LOST_AFTER_S):
-            self._lost = min(self._lost, expected - self._received)
-        else:
+        if not await WALL.race(arrived, LOST_AFTER_S):
             self._lost, self._down_at = expected - self._received, self._received
+
+    async def _is_down(self) -> bool:
+        """Whether nothing has come since datagrams were given up; what waits in the socket is read first."""
+        for _ in range(TURNS):
+            if self._received != self._down_at:
+                return False
+            await turn()
+        return self._received == self._down_at
 
     @property
     def _received(self) -> int:
