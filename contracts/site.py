@@ -1,6 +1,6 @@
 """A crew and the site it works on, as data; and the rules that the gate reads."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from functools import cached_property
 from typing import Any
 
@@ -9,7 +9,7 @@ from msgspec.structs import replace
 
 from crew.contracts.contract import Contract
 from crew.contracts.plan import Zone, digest
-from crew.contracts.skill import Fluent, Kind
+from crew.contracts.skill import Fluent, Kind, Part, Published
 
 
 class RobotSpec(msgspec.Struct, frozen=True, kw_only=True):
@@ -19,6 +19,8 @@ class RobotSpec(msgspec.Struct, frozen=True, kw_only=True):
     kind: str
     adapter: str
     aliases: tuple[str, ...] = ()
+    reach: tuple[str, ...] = ()
+    """The places that the robot reaches from where it stands, for skills that place things."""
     sim: str = ""
     """The simulated vehicle's name in the scene, or empty for a real robot."""
     connection: str = ""
@@ -115,13 +117,29 @@ class Rules(msgspec.Struct, frozen=True, kw_only=True, dict=True):
         kind = self.kind_of(robot)
         return None if kind is None else kind.fluent(name)
 
+    def publication(self, robot: str, value: str) -> Published | None:
+        """How a robot's kind declares a run-time value; None if it publishes no such value."""
+        kind = self._kind_by_robot.get(robot)
+        thing = value in self._objects
+        published = () if kind is None else kind.publishes
+        return next((p for p in published if (thing if p.each_object else p.name == value)), None)
+
     def publishers_of(self, value: str) -> frozenset[str]:
         """Robots of this crew whose kind publishes the value."""
-        return frozenset(
-            spec.name
-            for spec in self.crew.robots
-            if (kind := self.kinds.get(spec.kind)) and any(p.name == value for p in kind.publishes)
-        )
+        return frozenset(spec.name for spec in self.crew.robots if self.publication(spec.name, value))
+
+    @cached_property
+    def _objects(self) -> frozenset[str]:
+        return frozenset(thing.name for thing in self.crew.objects)
+
+    @cached_property
+    def parts(self) -> Mapping[str, Part]:
+        """The places that are parts of the crew's robots, by name."""
+        return {part.name: part for kind in self._kind_by_robot.values() for part in kind.parts}
+
+    def host_of(self, place: str, robots: Iterable[str]) -> str:
+        """Which of these robots a place is part of; empty if it is part of none."""
+        return next((r for r in robots if (kind := self.kind_of(r)) is not None and kind.part(place)), "")
 
     def digest(self) -> str:
         """SHA-256 over crew, kinds and contracts, wherever their files lie."""

@@ -11,6 +11,8 @@ import msgspec
 from msgspec import Meta
 
 FluentLiteral = bool | str | float
+NOTHING = "none"
+"""The value of a fluent that may name an object and names none."""
 
 
 class SkillArgs(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True, omit_defaults=True):
@@ -32,9 +34,12 @@ def number(*, ge: float, le: float, unit: str, frame: str = "", axis: str = "", 
     return Meta(ge=ge, le=le, description=about, extra={"unit": unit, "frame": frame, "axis": axis})
 
 
-def entity(what: Entity, about: str) -> Meta:
-    """The `Meta` of an argument that names a location, an object or a run-time value."""
-    return Meta(description=about, extra={"entity": what.value})
+def entity(what: Entity, about: str, *, reach: bool = False) -> Meta:
+    """The `Meta` of an argument that names a location, an object or a run-time value.
+
+    `reach`: only places that the crew file lists as within the robot's reach.
+    """
+    return Meta(description=about, extra={"entity": what.value, "reach": reach})
 
 
 class Param(msgspec.Struct, frozen=True, kw_only=True, dict=True):
@@ -47,6 +52,8 @@ class Param(msgspec.Struct, frozen=True, kw_only=True, dict=True):
     unit: str = ""
     frame: str = ""
     axis: str = ""
+    reach: bool = False
+    """Only a place within the robot's reach, which the crew file lists."""
     about: str = ""
     optional: bool = False
 
@@ -65,17 +72,39 @@ class Fluent(msgspec.Struct, frozen=True, kw_only=True):
     max_age_s: float = 2.0
     tolerance_m: float = 0.0
     """For a place: how far from it still counts as being there."""
+    at_rest: FluentLiteral | None = None
+    """What it is while a healthy robot waits for its first task; see `resting`."""
+
+    @property
+    def resting(self) -> FluentLiteral | None:
+        """`at_rest`, or what goes without saying: false, no object; None for a place or a number."""
+        usual: dict[str, FluentLiteral] = {"bool": False, "object": NOTHING}
+        return usual.get(self.domain) if self.at_rest is None else self.at_rest
 
 
 class Published(msgspec.Struct, frozen=True, kw_only=True):
-    """A run-time value that skills of a kind publish."""
+    """A run-time value that a kind publishes: made by skills, or observed all the time."""
 
     name: str
     type: Literal["position"]
     about: str
     max_age_s: float
-    by: tuple[str, ...]
-    """Skills whose run makes or reports the value."""
+    by: tuple[str, ...] = ()
+    """Skills whose run makes or reports the value; empty if it is observed all the time."""
+    each_object: bool = False
+    """One value for each object of the crew, under the object's own name."""
+    tolerance_m: float = 0.0
+    """How far from a place still counts as being there."""
+
+
+class Part(msgspec.Struct, frozen=True, kw_only=True):
+    """A place that is part of a robot and moves along with it, such as a tray."""
+
+    name: str
+    aliases: tuple[str, ...] = ()
+    holds: str
+    """The fluent that tells which object lies there."""
+    about: str
 
 
 class Skill(msgspec.Struct, frozen=True, kw_only=True, dict=True):
@@ -95,6 +124,11 @@ class Skill(msgspec.Struct, frozen=True, kw_only=True, dict=True):
     during: Mapping[str, FluentLiteral] = {}
     may: tuple[Mapping[str, FluentLiteral], ...] = ()
     """Leftovers that a failure may leave behind."""
+    puts: tuple[str, str] | None = None
+    """The arguments that name an object and the place where it must be seen afterwards.
+
+    At a part of a robot its host sees it; anywhere else the object's published position shows it.
+    """
     reports: tuple[str, ...] = ()
     """Published values that a run of this skill renews."""
     timeout_s: float
@@ -125,6 +159,7 @@ class Kind(msgspec.Struct, frozen=True, kw_only=True, dict=True):
     fluents: tuple[Fluent, ...]
     skills: tuple[Skill, ...]
     publishes: tuple[Published, ...] = ()
+    parts: tuple[Part, ...] = ()
     idle_on_stop: str
     idle_on_link_loss: str
 
@@ -141,6 +176,9 @@ class Kind(msgspec.Struct, frozen=True, kw_only=True, dict=True):
 
     def fluent(self, name: str) -> Fluent | None:
         return self._fluent_by_name.get(name)
+
+    def part(self, name: str) -> Part | None:
+        return next((p for p in self.parts if p.name == name), None)
 
     @cached_property
     def digest(self) -> str:
@@ -178,6 +216,7 @@ def _param(name: str, hint: Any, optional: bool) -> Param:
         unit=extra.get("unit", ""),
         frame=extra.get("frame", ""),
         axis=extra.get("axis", ""),
+        reach=extra.get("reach", False),
         about=(meta.description if meta else None) or "",
         optional=optional,
     )

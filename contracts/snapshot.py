@@ -31,6 +31,8 @@ class ValueReading(msgspec.Struct, frozen=True, kw_only=True):
     name: str
     status: str
     position: Point | None = None
+    near: bool | None = None
+    """For a person: whether in reach of the robot that publishes it; None where that is not observed."""
     sigma_m: float | None = None
     """One-sigma horizontal uncertainty, metres."""
     looks: int = 0

@@ -46,6 +46,7 @@ def load_rules(crew: str | Path, *, contracts: Sequence[Path] = ()) -> "Rules":
     found = _find_contracts(loaded, path)
     _check_references(loaded, found, text)
     kinds = {spec.kind: load_kind(spec.kind) for spec in loaded.robots}
+    _check_places(loaded, kinds, text)
     paths = [*(place for place in found.values() if place), *contracts]
     return Rules(crew=loaded, kinds=kinds, contracts=_load_contracts(paths, loaded, kinds))
 
@@ -148,6 +149,17 @@ def _check_references(crew: "Crew", contracts: Mapping[str, Path | None], text: 
         fix = "a contract of your own lies beside the crew file"
         problems.unknown(("contracts", index), "no such contract", crew.contracts[index], contract_names(), fix=fix)
     raise UsageError(str(SourceErrors(problems.errors)))
+
+
+def _check_places(crew: "Crew", kinds: Mapping[str, "Kind"], text: str) -> None:
+    """Reach and parts, which a crew and its kinds declare together. Raises UsageError."""
+    from crew.contracts.files.crew_place import check_places
+    from crew.contracts.files.source import Problems, SourceErrors, parse
+
+    problems = Problems(crew.source, parse(text, file=crew.source))
+    check_places(crew, kinds, problems)
+    if problems.errors:
+        raise UsageError(str(SourceErrors(problems.errors)))
 
 
 def _load_contracts(paths: Sequence[Path], crew: "Crew", kinds: Mapping[str, "Kind"]) -> dict[str, "Contract"]:

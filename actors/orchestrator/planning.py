@@ -9,6 +9,7 @@ from crew.actors.orchestrator.world import WorldFold
 from crew.bus.port import Bus, Qos
 from crew.clock import WALL, Clock
 from crew.contracts.codes import Code
+from crew.contracts.language.words import REQUESTER
 from crew.contracts.mission import event as ev
 from crew.contracts.mission_state import MissionState
 from crew.contracts.refusal import Refusal
@@ -104,12 +105,19 @@ class PlannerDesk:
             feedback=feedback,
             airborne=known_airborne(world),
             values={name: stamped.reading.status for name, stamped in world.values.items()},
+            requester_near=requester_near(world),
         )
 
 
 def _nobody(mission: str, attempt: int) -> PlannerProposal:
     reason = "the planner is not there; bring the crew up again (crew status)"
     return PlannerProposal(mission=mission, attempt=attempt, planner="", reason=reason)
+
+
+def requester_near(world: Snapshot) -> bool | None:
+    """Whether the person who asks is in reach, as last published; None if nobody knows."""
+    known = world.values.get(REQUESTER)
+    return None if known is None or known.reading.status != "ok" else known.reading.near
 
 
 def known_airborne(world: Snapshot) -> dict[str, bool]:

@@ -6,6 +6,7 @@ from graphlib import CycleError, TopologicalSorter
 
 from crew.contracts.files.contract_guard import check_guard, check_guards
 from crew.contracts.files.contract_model import ContractModel, StepModel
+from crew.contracts.files.contract_place import check_places
 from crew.contracts.files.contract_role import check_roles
 from crew.contracts.files.contract_scope import PLAIN_TYPES, Scope
 from crew.contracts.files.contract_value import check_argument, check_default
@@ -78,6 +79,7 @@ def _check_step(name: str, step: StepModel, model: ContractModel, scope: Scope, 
             declared = _skill(skill, step, where, scope, problems)
             if declared is not None:
                 _check_call(declared, args, where, scope, problems)
+                check_places(declared, args, step.role, where, scope, problems)
 
 
 def _skill(name: str, step: StepModel, loc: Loc, scope: Scope, problems: Problems) -> Skill | None:

@@ -10,8 +10,6 @@ from crew.contracts.matching import FIELDS
 from crew.contracts.site import Crew, RobotSpec
 from crew.contracts.skill import Fluent, Kind, Skill
 
-TRAY = "payload_tray"
-"""The tray of the robot in the role: a place wherever a kind has a fluent `tray`."""
 PLACE_SLOTS = {SlotType.LOCATION, SlotType.POINT, SlotType.VALUE}
 
 
@@ -38,8 +36,12 @@ class Scope(msgspec.Struct, frozen=True, kw_only=True):
 
     @property
     def locations(self) -> list[str]:
-        tray = [TRAY] if any(kind.fluent("tray") for kind in self.kinds) else []
-        return [place.name for place in self.crew.locations] + tray
+        return [place.name for place in self.crew.locations] + self.parts
+
+    @property
+    def parts(self) -> list[str]:
+        """Places that are parts of robots."""
+        return list(dict.fromkeys(part.name for kind in self.kinds for part in kind.parts))
 
     @property
     def zones(self) -> list[str]:

@@ -8,12 +8,10 @@ from crew.contracts.files.contract_scope import PLACE_SLOTS, Scope, fields_of
 from crew.contracts.files.file_model import advice, show
 from crew.contracts.files.source import Loc, Problems
 from crew.contracts.site import Crew
-from crew.contracts.skill import Entity, Param
+from crew.contracts.skill import NOTHING, Entity, Param
 
 STATUSES = ("ok", "absent", "ambiguous")
 """What the status of a run-time value may be."""
-NOTHING = "none"
-"""The operand for a fluent that may name an object and names none."""
 
 _DOMAIN_SLOTS = {
     "place": PLACE_SLOTS,
@@ -102,7 +100,8 @@ def _argument_slots(param: Param) -> AbstractSet[SlotType]:
 def _names(param: Param, scope: Scope) -> list[str]:
     if param.entity is Entity.OBJECT:
         return scope.objects
-    return scope.locations + (scope.values if SlotType.VALUE in _argument_slots(param) else [])
+    places = [place.name for place in scope.crew.locations]
+    return places + (scope.values if param.entity is Entity.TARGET else scope.parts)
 
 
 def _check_field(written: str, param: Param, loc: Loc, scope: Scope, problems: Problems) -> None:

@@ -69,6 +69,7 @@ def _robots(model: CrewModel) -> tuple[RobotSpec, ...]:
             kind=robot.kind,
             adapter=robot.adapter,
             aliases=tuple(robot.aliases),
+            reach=tuple(robot.reach),
             sim=robot.sim or "",
             connection=robot.connection or "",
             options=robot.options,

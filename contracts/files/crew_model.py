@@ -38,6 +38,9 @@ class RobotModel(FileModel):
     sim: Annotated[Text | None, Field(description="The simulated vehicle's name in the scene")] = None
     connection: Annotated[Text | None, Field(description="The real robot's connection")] = None
     aliases: Aliases = Field(default_factory=list)
+    reach: Annotated[list[Name], Field(description="The places that it reaches, for skills that place things")] = Field(
+        default_factory=list
+    )
     options: dict[str, Any] = Field(default_factory=dict, description="Settings of the adapter")
 
 

@@ -39,7 +39,7 @@ def _problems(call: Call, skill: Skill, rules: Rules) -> Iterator[Refusal]:
         if param.name in call.args:
             problem = _bad_value(call, param)
             if problem is None:
-                problem = _out_of_bounds(call, param, rules) if param.is_number else _unknown_name(call, param, rules)
+                problem = _out_of_bounds(call, param, rules) if param.is_number else _bad_name(call, param, rules)
             if problem is not None:
                 yield problem
     swapped = _swapped(call, skill)
@@ -93,6 +93,19 @@ def _is_finite(value: float) -> bool:
         return False
 
 
+def _bad_name(call: Call, param: Param, rules: Rules) -> Refusal | None:
+    return _unknown_name(call, param, rules) or (_out_of_reach(call, param, rules) if param.reach else None)
+
+
+def _out_of_reach(call: Call, param: Param, rules: Rules) -> Refusal | None:
+    spec, place = rules.crew.robot(call.robot), str(call.args[param.name])
+    reach = () if spec is None else spec.reach
+    if place in reach:
+        return None
+    allowed = ", ".join(reach) or "nothing"
+    return _argument(Code.OUT_OF_BOUNDS, call, param.name, place, allowed, f"is out of {call.robot}'s reach")
+
+
 def _unknown_name(call: Call, param: Param, rules: Rules) -> Refusal | None:
     value = str(call.args[param.name])
     code = Code.UNKNOWN_OBJECT if param.entity is Entity.OBJECT else Code.UNKNOWN_LOCATION
@@ -109,7 +122,7 @@ def names_for(entity: Entity, rules: Rules) -> list[str]:
     if entity is Entity.OBJECT:
         return [o.name for o in crew.objects]
     places = [p.name for p in crew.locations]
-    return places if entity is Entity.LOCATION else [v.name for v in crew.values] + places
+    return [*places, *rules.parts] if entity is Entity.LOCATION else [v.name for v in crew.values] + places
 
 
 def bounds(param: Param, rules: Rules) -> tuple[float, float]:

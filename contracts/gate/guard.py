@@ -10,8 +10,7 @@ from crew.contracts.contract import Condition
 from crew.contracts.plan import SlotValue, Spot
 from crew.contracts.refusal import show
 from crew.contracts.site import Rules
-from crew.contracts.skill import Published
-from crew.contracts.snapshot import FluentValue, Point, Snapshot
+from crew.contracts.snapshot import FluentValue, Point, Snapshot, ValueReading
 
 SECOND_NS = 1_000_000_000
 FUTURE_NS = SECOND_NS // 2
@@ -86,7 +85,7 @@ def _compare(path: str, wanted: FluentValue, negated: bool, scope: Scope) -> Ver
     if head in scope.roles and attribute:
         verdict = _robot_fluent(scope.roles[head], attribute, wanted, scope)
     else:
-        verdict = _value(value_name(path, scope), attribute, wanted, scope)
+        verdict = value_is(value_name(path, scope), attribute, wanted, scope)
     if not negated or verdict.truth in (Truth.ABSENT, Truth.STALE):
         return verdict
     flipped = Truth.FAILS if verdict.truth is Truth.HOLDS else Truth.HOLDS
@@ -113,23 +112,29 @@ def _robot_fluent(robot: str, name: str, wanted: FluentValue, scope: Scope) -> V
     return Verdict(Truth.HOLDS if held else Truth.FAILS, _observed(stamped.value), age_s, declared.max_age_s)
 
 
-def _value(name: str, attribute: str, wanted: FluentValue, scope: Scope) -> Verdict:
+def value_is(name: str, attribute: str, wanted: FluentValue, scope: Scope) -> Verdict:
+    """Whether a run-time value's status (no attribute), nearness (`near`) or place (`at`) is as wanted."""
     stamped = scope.world.values.get(name)
-    if stamped is None or attribute not in ("", "status"):
+    if stamped is None:
         return Verdict(Truth.ABSENT)
-    status, declared = stamped.reading.status, publication(stamped.source, name, scope.rules)
-    if declared is None:
-        return Verdict(Truth.ABSENT, status)
+    seen = _attribute(stamped.reading, attribute)
+    declared = scope.rules.publication(stamped.source, name)
+    if declared is None or seen is None or not _finite(seen):
+        return Verdict(Truth.ABSENT, stamped.reading.status if seen is None else _observed(seen))
     age_s = age(stamped.reading.stamp_ns, scope.now_ns)
     if not 0.0 <= age_s <= declared.max_age_s:
-        return Verdict(Truth.STALE, status, age_s, declared.max_age_s)
-    return Verdict(Truth.HOLDS if status == wanted else Truth.FAILS, status, age_s, declared.max_age_s)
+        return Verdict(Truth.STALE, _observed(seen), age_s, declared.max_age_s)
+    held = _equal(seen, wanted, declared.tolerance_m, scope)
+    return Verdict(Truth.HOLDS if held else Truth.FAILS, _observed(seen), age_s, declared.max_age_s)
 
 
-def publication(source: str, name: str, rules: Rules) -> Published | None:
-    """How the kind of a value's source declares it; None if that kind publishes no such value."""
-    kind = rules.kind_of(source)
-    return None if kind is None else next((p for p in kind.publishes if p.name == name), None)
+def _attribute(reading: ValueReading, name: str) -> FluentValue | None:
+    """What a reading says of an attribute; where a value is, and how near, is known only while it is seen."""
+    if name in ("", "status"):
+        return reading.status
+    if reading.status != "ok":
+        return None
+    return reading.near if name == "near" else reading.position if name == "at" else None
 
 
 def age(source_ns: int, now_ns: int) -> float:

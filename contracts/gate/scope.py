@@ -1,8 +1,12 @@
 """What the names in a mission's guards mean at one moment."""
 
+from collections.abc import Mapping
+
 from crew.contracts.gate.guard import Scope
+from crew.contracts.language.licence import claims
+from crew.contracts.language.mention import Reading
 from crew.contracts.mission_state import MissionState
-from crew.contracts.plan import Call
+from crew.contracts.plan import Call, Instance, SlotValue
 from crew.contracts.site import Rules
 from crew.contracts.skill import Skill
 from crew.contracts.snapshot import Point, Snapshot
@@ -13,9 +17,16 @@ def scope_of(mission: MissionState, world: Snapshot, rules: Rules, now_ns: int) 
     instance = mission.instance
     if instance is None:
         return Scope(rules=rules, world=world, now_ns=now_ns)
-    return Scope(
-        rules=rules, world=world, now_ns=now_ns, roles=instance.roles, slots=instance.slots, pins=pins_of(mission)
-    )
+    slots = _with_claims(mission.reading, instance, rules)
+    return Scope(rules=rules, world=world, now_ns=now_ns, roles=instance.roles, slots=slots, pins=pins_of(mission))
+
+
+def _with_claims(reading: Reading, instance: Instance, rules: Rules) -> Mapping[str, SlotValue]:
+    """The slots as the plan binds them, and those that only the request binds, such as a claimed origin."""
+    contract = rules.contracts.get(instance.contract)
+    if contract is None or not any(slot.said_from for slot in contract.slots):
+        return instance.slots
+    return {**claims(reading, contract, rules), **instance.slots}
 
 
 def pins_of(mission: MissionState) -> dict[str, Point]:
@@ -39,4 +50,5 @@ def skill_of(call: Call, rules: Rules) -> Skill:
 
 def is_position(name: str, rules: Rules) -> bool:
     """Whether a run-time value is a place."""
-    return any(p.name == name and p.type == "position" for kind in rules.kinds.values() for p in kind.publishes)
+    found = (rules.publication(robot.name, name) for robot in rules.crew.robots)
+    return any(published is not None and published.type == "position" for published in found)

@@ -151,8 +151,9 @@ def _judge(path: str, wanted: str, verdict: Verdict, line: str, scope: Scope | N
         message = f"needs that {path} {wanted}, observed {verdict.observed}"
         code = Code.PRECONDITION_FAILED
     elif scope is not None and path.partition(".")[0] not in scope.roles:
-        message = f"needs that {path} {wanted}, but no usable value was published"
-        code = Code.NO_TARGET_FIX if is_position(value_name(path, scope), scope.rules) else Code.NO_VALUE
+        name, near = value_name(path, scope), path.endswith(".near")
+        message = f"needs that {path} {wanted}, but no usable value of {name} was published: {verdict.observed}{aged}"
+        code = Code.NO_TARGET_FIX if is_position(name, scope.rules) and not near else Code.NO_VALUE
     else:
         message = f"needs that {path} {wanted}, but its state is {verdict.truth}{aged}"
         code = Code.STATE_STALE

@@ -3,7 +3,7 @@
 import math
 
 from crew.contracts.codes import Code
-from crew.contracts.gate.guard import age, publication
+from crew.contracts.gate.guard import age
 from crew.contracts.gate.scope import is_position, skill_of
 from crew.contracts.mission_state import MissionState
 from crew.contracts.plan import Call, InstanceStep, Zone
@@ -69,7 +69,7 @@ def _usable(name: str, step: str, mission: MissionState, world: Snapshot, rules:
 
 def _stale(stamped: StampedValue, step: str, mission: MissionState, rules: Rules, now_ns: int) -> str:
     reading = stamped.reading
-    declared = publication(stamped.source, reading.name, rules)
+    declared = rules.publication(stamped.source, reading.name)
     if declared is None:
         return f"published by {stamped.source}, whose kind publishes no {reading.name}"
     age_s = age(reading.stamp_ns, now_ns)

@@ -18,6 +18,8 @@ def entities(rules: Rules) -> Iterator[Entry]:
     crew = rules.crew
     for place in crew.locations:
         yield from _named(MentionKind.LOCATION, place.name, place.name, place.aliases)
+    for part in rules.parts.values():
+        yield from _named(MentionKind.LOCATION, part.name, part.name, part.aliases)
     for zone in crew.zones:
         yield from _named(MentionKind.ZONE, zone.name, zone.zone, zone.aliases)
     for thing in crew.objects:

@@ -1,10 +1,11 @@
 """Effects: what a skill is expected to change, whether telemetry has shown it, and the predicted world of a dry run."""
 
 from collections.abc import Mapping, Sequence
+from types import MappingProxyType
 
 from msgspec.structs import replace
 
-from crew.contracts.gate.guard import Scope, Truth, robot_fluent_is
+from crew.contracts.gate.guard import Scope, Truth, robot_fluent_is, value_is
 from crew.contracts.mission_state import StepRecord
 from crew.contracts.plan import Call, Zone
 from crew.contracts.site import Rules
@@ -59,7 +60,33 @@ def unseen_effect(record: StepRecord, scope: Scope) -> str:
         published = scope.world.values.get(name)
         if published is None or published.source != call.robot or published.received_ns < record.dispatched_ns:
             return f"{call.robot} has not published {name} since the dispatch"
-    return ""
+    return _not_put(skill, record, scope)
+
+
+def _not_put(skill: Skill, record: StepRecord, scope: Scope) -> str:
+    """Empty once the object is seen where the call puts it, by the place's host or as the object's own position.
+
+    A robot that looks at itself alone (a scope without roles) leaves another robot's part to the orchestrator.
+    """
+    if skill.puts is None:
+        return ""
+    thing, place = (str(record.call.args[name]) for name in skill.puts)
+    part = scope.rules.parts.get(place)
+    if part is None:
+        stamped = scope.world.values.get(thing)
+        if stamped is None or stamped.reading.stamp_ns <= record.dispatched_ns:
+            return f"{thing} has not been seen since the dispatch"
+        verdict = value_is(thing, "at", place, scope)
+        return "" if verdict.truth is Truth.HOLDS else f"{thing}.at is {verdict.observed}, not {place}"
+    host = scope.rules.host_of(place, scope.roles.values())
+    if not host:
+        return "" if not scope.roles else f"nobody in this mission has a {place}"
+    state = scope.world.robots.get(host)
+    seen = None if state is None else state.fluents.get(part.holds)
+    if seen is None or seen.source_ns <= record.dispatched_ns:
+        return f"{host}.{part.holds} has not been observed since the dispatch"
+    verdict = robot_fluent_is(host, part.holds, thing, scope)
+    return "" if verdict.truth is Truth.HOLDS else f"{host}.{part.holds} is {verdict.observed}"
 
 
 def safe_state_missing(robot: str, reach: Mapping[str, FluentLiteral], scope: Scope, since_ns: int = 0) -> str:
@@ -92,9 +119,18 @@ def assumed_world(world: Snapshot, mission_id: str, rules: Rules, now_ns: int) -
 
 
 def predict(
-    world: Snapshot, call: Call, skill: Skill, rules: Rules, now_ns: int, avoid: Sequence[Zone] = ()
+    world: Snapshot,
+    call: Call,
+    skill: Skill,
+    rules: Rules,
+    now_ns: int,
+    avoid: Sequence[Zone] = (),
+    roles: Mapping[str, str] = MappingProxyType({}),
 ) -> Snapshot:
-    """The world after a successful call. Values that it publishes are assumed good, and outside the zones to avoid."""
+    """The world after a successful call. Values that it publishes are assumed good, and outside the zones to avoid.
+
+    `roles` are the mission's: at a part of a robot, its host sees what was put there.
+    """
     state = world.robots[call.robot]
     fluents = dict(state.fluents)
     fluents.update({name: Stamped(v, now_ns, now_ns) for name, v in effect_values(skill, call).items()})
@@ -104,7 +140,30 @@ def predict(
         reading = ValueReading(name=name, status="ok", position=position, stamp_ns=now_ns)
         values[name] = StampedValue(reading, call.robot, now_ns)
     robots = {**world.robots, call.robot: replace(state, fluents=fluents)}
+    _put(call, skill, rules, now_ns, robots, values, roles)
     return replace(world, robots=robots, values=values)
+
+
+def _put(
+    call: Call,
+    skill: Skill,
+    rules: Rules,
+    now_ns: int,
+    robots: dict[str, RobotState],
+    values: dict[str, StampedValue],
+    roles: Mapping[str, str],
+) -> None:
+    """Predict where an object lies that the call puts somewhere, in place."""
+    if skill.puts is None:
+        return
+    thing, place = (str(call.args[name]) for name in skill.puts)
+    part, host, location = rules.parts.get(place), rules.host_of(place, roles.values()), rules.crew.location(place)
+    if part is not None and host:
+        told = {**robots[host].fluents, part.holds: Stamped(thing, now_ns, now_ns)}
+        robots[host] = replace(robots[host], fluents=told)
+    elif location is not None:
+        reading = ValueReading(name=thing, status="ok", position=Point(location.x, location.y), stamp_ns=now_ns)
+        values[thing] = StampedValue(reading, call.robot, now_ns)
 
 
 def _somewhere(area: Zone, avoid: Sequence[Zone]) -> Point:

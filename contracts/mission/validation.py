@@ -80,7 +80,8 @@ def _dry_run(
         kind = rules.kind_of(step.call.robot)
         skill = None if kind is None else kind.skill(step.call.skill)
         assert skill is not None, f"{step.call} passed the capability check"
-        predicted = predict(predicted, step.call, skill, rules, now_ns, mission.reading.excluded_areas)
+        avoid = mission.reading.excluded_areas
+        predicted = predict(predicted, step.call, skill, rules, now_ns, avoid, instance.roles)
         done = StepRecord(
             call=step.call,
             phase=StepPhase.SUCCEEDED,

@@ -4,8 +4,8 @@ from collections.abc import Iterator
 
 from crew.contracts.gate.arguments import bounds
 from crew.contracts.render.wording import fluent_words, listed
-from crew.contracts.site import Rules
-from crew.contracts.skill import Entity, Kind, Param, Skill
+from crew.contracts.site import RobotSpec, Rules
+from crew.contracts.skill import Entity, Kind, Param, Published, Skill
 
 
 def robot_card(robot: str, rules: Rules) -> str:
@@ -14,10 +14,13 @@ def robot_card(robot: str, rules: Rules) -> str:
     if spec is None or kind is None:
         raise KeyError(f"{robot!r} (known: {', '.join(known.name for known in rules.crew.robots)})")
     called = f" (also {', '.join(spec.aliases)})" if spec.aliases else ""
-    return "\n".join([f"Robot {robot}{called}, a {kind.name}. {kind.about}", *_lines(kind, rules)]) + "\n"
+    return "\n".join([f"Robot {robot}{called}, a {kind.name}. {kind.about}", *_lines(spec, kind, rules)]) + "\n"
 
 
-def _lines(kind: Kind, rules: Rules) -> Iterator[str]:
+def _lines(spec: RobotSpec, kind: Kind, rules: Rules) -> Iterator[str]:
+    if spec.reach:
+        yield f"Reaches: {listed(spec.reach)}."
+    yield from (f"Carries {part.name}: {part.about}" for part in kind.parts)
     yield "Skills:"
     for skill in kind.skills:
         yield f"- {signature(skill)}: {skill.about}"
@@ -25,7 +28,11 @@ def _lines(kind: Kind, rules: Rules) -> Iterator[str]:
         yield from (f"    {line}" for line in _behaviour(skill))
     if kind.publishes:
         yield "Publishes:"
-        yield from (f"- {value.name} ({value.type}), by {listed(value.by)}: {value.about}" for value in kind.publishes)
+        yield from (f"- {value.name} ({value.type}), {_made(value)}: {value.about}" for value in kind.publishes)
+
+
+def _made(value: Published) -> str:
+    return f"by {listed(value.by)}" if value.by else "all the time"
 
 
 def signature(skill: Skill) -> str:
@@ -50,6 +57,8 @@ def _behaviour(skill: Skill) -> Iterator[str]:
         yield f"needs: {fluent_words(skill.needs)}"
     if skill.effects:
         yield f"effect: {fluent_words(skill.effects)}"
+    if skill.puts:
+        yield f"effect: {skill.puts[0]} is seen at {skill.puts[1]}"
     if skill.during:
         yield f"while running: {fluent_words(skill.during)}"
     if skill.may:

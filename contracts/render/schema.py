@@ -36,10 +36,10 @@ def plan_tool() -> Schema:
     }
 
 
-def skill_schema(skill: Skill, rules: Rules) -> Schema:
-    """The arguments of one skill: bounds narrowed by the operational area, names from the crew."""
+def skill_schema(skill: Skill, rules: Rules, reach: tuple[str, ...] = ()) -> Schema:
+    """The arguments of one skill: bounds narrowed by the operational area, names from the crew and a robot's reach."""
     required = [param.name for param in skill.params if not param.optional]
-    schema = {"description": skill.about, **_object({p.name: _param(p, rules) for p in skill.params}, required)}
+    schema = {"description": skill.about, **_object({p.name: _param(p, rules, reach) for p in skill.params}, required)}
     forms = [list(form) for form in skill.forms]
     if any(forms):
         optional = [param.name for param in skill.params if param.optional]
@@ -49,8 +49,10 @@ def skill_schema(skill: Skill, rules: Rules) -> Schema:
 
 def robot_schemas(robot: str, rules: Rules) -> dict[str, Schema]:
     """Skill to the schema of its arguments, for one robot; empty for a robot that the crew does not have."""
-    kind = rules.kind_of(robot)
-    return {} if kind is None else {skill.name: skill_schema(skill, rules) for skill in kind.skills}
+    spec, kind = rules.crew.robot(robot), rules.kind_of(robot)
+    if spec is None or kind is None:
+        return {}
+    return {skill.name: skill_schema(skill, rules, spec.reach) for skill in kind.skills}
 
 
 def _form(form: list[str], optional: list[str]) -> Schema:
@@ -59,10 +61,11 @@ def _form(form: list[str], optional: list[str]) -> Schema:
     return {"required": form, "not": {"anyOf": others}} if others else {"required": form}
 
 
-def _param(param: Param, rules: Rules) -> Schema:
+def _param(param: Param, rules: Rules, reach: tuple[str, ...]) -> Schema:
     about: Schema = {"description": param.about} if param.about else {}
     if not param.is_number:
-        return {"type": "string", "enum": names_for(param.entity, rules), **about}
+        names = list(reach) if param.reach else names_for(param.entity, rules)
+        return {"type": "string", "enum": names, **about}
     low, high = bounds(param, rules)
     unit: Schema = {"x-unit": param.unit} if param.unit else {}
     return {"type": "number", "minimum": low, "maximum": high, **about, **unit}

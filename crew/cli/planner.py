@@ -1,12 +1,14 @@
 """`crew planner try`: one request planned and judged, without any robot and without any network."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import msgspec
 
+from crew.actors.orchestrator.planning import requester_near
 from crew.actors.planner.process import make_backend
 from crew.cli.output import coloured, plan_lines, say, say_json
+from crew.contracts.files.contract_value import STATUSES
 from crew.contracts.gate.authorize import Gate
 from crew.contracts.language.containment import check_reading
 from crew.contracts.language.lexicon import build_lexicon
@@ -17,6 +19,7 @@ from crew.contracts.mission.validation import Validation, validate
 from crew.contracts.mission_state import MissionState
 from crew.contracts.plan import Plan
 from crew.contracts.site import Rules
+from crew.contracts.skill import NOTHING
 from crew.contracts.snapshot import Point, RobotState, Snapshot, Stamped, StampedValue, ValueReading
 from crew.errors import UsageError, nearest
 from crew.library import load_rules
@@ -39,7 +42,7 @@ def run_try(text: str, crew: str, planner: str, script: str, state: tuple[str, .
     """0 if the plan is accepted, 3 if it is refused or a person would be asked."""
     rules = load_rules(crew)
     backend = make_backend(planner, rules, script)
-    world, near = assumed(state, rules)
+    world = assumed(state, rules)
     reading = read_request(text, build_lexicon(rules))
     ask = PlannerAsk(
         mission="try",
@@ -47,7 +50,7 @@ def run_try(text: str, crew: str, planner: str, script: str, state: tuple[str, .
         request=text,
         airborne={n: bool(r.fluents["airborne"].value) for n, r in world.robots.items() if "airborne" in r.fluents},
         values={n: v.reading.status for n, v in world.values.items()},
-        requester_near=near,
+        requester_near=requester_near(world),
     )
     proposal = backend.propose(ask)
     mission = MissionState(id="try", request=text, reading=reading)
@@ -60,59 +63,91 @@ def run_try(text: str, crew: str, planner: str, script: str, state: tuple[str, .
     return 0 if accepted else 3
 
 
-def assumed(assignments: tuple[str, ...], rules: Rules) -> tuple[Snapshot, bool | None]:
-    """A world from `robot.fluent=value`, `<value>.status=ok` and `requester.near=true`. Raises UsageError."""
+def assumed(assignments: tuple[str, ...], rules: Rules) -> Snapshot:
+    """A world from `robot.fluent=value` and `value.near=true`, `.at=place` or `.status=ok`. Raises UsageError."""
     robots = {r.name: _robot(r.name, rules) for r in rules.crew.robots}
     values: dict[str, StampedValue] = {}
-    near: bool | None = None
     for text in assignments:
         path, equals, written = text.partition("=")
         head, _, attribute = path.partition(".")
         if not equals or not attribute:
-            raise UsageError(f"--state {text!r} is no assignment; write robot.fluent=value, such as iris.airborne=true")
+            raise UsageError(f"--state {text!r} is no assignment; write <robot>.<fluent>=<value> or <value>.near=true")
+        published = [v.name for v in rules.crew.values] + [o.name for o in rules.crew.objects]
         if head in robots:
-            robots[head] = _with_fluent(robots[head], attribute, _parsed(written), rules)
-        elif path == "requester.near":
-            near = written == "true"
-        elif rules.crew.value(head) is not None and attribute == "status":
-            values[head] = _value(head, written, rules)
+            robots[head] = _with_fluent(robots[head], attribute, written, rules)
+        elif head in published:
+            values[head] = _with_attribute(values.get(head) or _value(head, rules), attribute, written, rules)
         else:
-            known = [*robots, *(v.name for v in rules.crew.values)]
+            known = [*robots, *published]
             raise UsageError(f"--state {text!r} names nothing of this crew{nearest(head, known)}")
-    return Snapshot(robots=robots, values=values), near
+    return Snapshot(robots=robots, values=values)
 
 
 def _robot(name: str, rules: Rules) -> RobotState:
-    """A robot that stands still on the ground."""
+    """A healthy robot that waits for its first task."""
     kind = rules.kind_of(name)
     assert kind is not None
-    fluents = {f.name: Stamped(False, NOW_NS, NOW_NS) for f in kind.fluents if f.domain == "bool"}
+    fluents = {f.name: Stamped(f.resting, NOW_NS, NOW_NS) for f in kind.fluents if f.resting is not None}
     return RobotState(name=name, kind_digest=kind.digest, fluents=fluents)
 
 
-def _with_fluent(robot: RobotState, name: str, value: bool | float | str, rules: Rules) -> RobotState:
+def _with_fluent(robot: RobotState, name: str, written: str, rules: Rules) -> RobotState:
     kind = rules.kind_of(robot.name)
     assert kind is not None
-    if kind.fluent(name) is None:
+    fluent = kind.fluent(name)
+    if fluent is None:
         raise UsageError(f"{robot.name} has no fluent {name!r}{nearest(name, [f.name for f in kind.fluents])}")
+    path = f"{robot.name}.{name}"
+    value: bool | float | str
+    if fluent.domain == "bool":
+        value = _bool(path, written)
+    elif fluent.domain == "number":
+        value = _number(path, written)
+    else:
+        things = [o.name for o in rules.crew.objects] + [NOTHING]
+        value = _one_of(path, written, things if fluent.domain == "object" else [p.name for p in rules.crew.locations])
     return msgspec.structs.replace(robot, fluents={**robot.fluents, name: Stamped(value, NOW_NS, NOW_NS)})
 
 
-def _value(name: str, status: str, rules: Rules) -> StampedValue:
+def _value(name: str, rules: Rules) -> StampedValue:
     area = rules.crew.area
     centre = Point((area.x_min + area.x_max) / 2, (area.y_min + area.y_max) / 2)
     source = min(rules.publishers_of(name), default="")
-    position = centre if status == "ok" else None
-    return StampedValue(ValueReading(name=name, status=status, position=position, stamp_ns=NOW_NS), source, NOW_NS)
+    return StampedValue(ValueReading(name=name, status="ok", position=centre, stamp_ns=NOW_NS), source, NOW_NS)
 
 
-def _parsed(text: str) -> bool | float | str:
-    if text in ("true", "false"):
-        return text == "true"
+def _with_attribute(value: StampedValue, attribute: str, written: str, rules: Rules) -> StampedValue:
+    reading, path = value.reading, f"{value.reading.name}.{attribute}"
+    if attribute == "near":
+        reading = msgspec.structs.replace(reading, near=_bool(path, written))
+    elif attribute == "at":
+        place = rules.crew.location(_one_of(path, written, [p.name for p in rules.crew.locations]))
+        assert place is not None
+        reading = msgspec.structs.replace(reading, position=Point(place.x, place.y))
+    elif attribute == "status":
+        status = _one_of(path, written, STATUSES)
+        position = reading.position if status == "ok" else None
+        reading = msgspec.structs.replace(reading, status=status, position=position)
+    else:
+        raise UsageError(f"{reading.name} has no attribute {attribute!r}{nearest(attribute, ['near', 'at', 'status'])}")
+    return msgspec.structs.replace(value, reading=reading)
+
+
+def _bool(path: str, written: str) -> bool:
+    return _one_of(path, written, ("true", "false")) == "true"
+
+
+def _number(path: str, written: str) -> float:
     try:
-        return float(text)
-    except ValueError:
-        return text
+        return float(written)
+    except ValueError as error:
+        raise UsageError(f"--state {path}: {written!r} is no number") from error
+
+
+def _one_of(path: str, written: str, valid: Sequence[str]) -> str:
+    if written not in valid:
+        raise UsageError(f"--state {path}: {written!r} is no value of it{nearest(written, valid)}")
+    return written
 
 
 def _result(plan: Plan | None, reason: str, reading: Reading, verdict: Validation | None) -> TryResult:

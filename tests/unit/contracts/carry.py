@@ -8,7 +8,7 @@ from crew.contracts.files.contract_file import load_contract
 from crew.contracts.files.crew_file import load_crew
 from crew.contracts.files.source import SourceError, SourceErrors
 from crew.contracts.site import Crew
-from crew.contracts.skill import Entity, Fluent, Kind, Skill, SkillArgs, entity, number
+from crew.contracts.skill import Entity, Fluent, Kind, Part, Skill, SkillArgs, entity, number
 
 
 class PickPlace(SkillArgs, frozen=True):
@@ -63,6 +63,7 @@ QUADRUPED = Kind(
         _skill("patrol", Patrol, forms=(("location",), ("x", "y"))),
         _skill("stop", NoArgs, safe=True),
     ),
+    parts=(Part(name="payload_tray", holds="tray", about="On its back."),),
     idle_on_stop="stop",
     idle_on_link_loss="stop",
 )

@@ -3,12 +3,14 @@
 import pytest
 from msgspec.structs import replace
 
+from crew.contracts.kinds.humanoid import HUMANOID
 from crew.contracts.kinds.quadcopter import QUADCOPTER
+from crew.contracts.kinds.quadruped import QUADRUPED
 from crew.contracts.kinds.rover import ROVER
 from crew.contracts.skill import Entity, Kind
 from crew.library import kind_names, load_kind
 
-KINDS = (QUADCOPTER, ROVER)
+KINDS = (QUADCOPTER, ROVER, HUMANOID, QUADRUPED)
 by_name = pytest.mark.parametrize("kind", KINDS, ids=lambda kind: kind.name)
 
 
@@ -30,8 +32,27 @@ def test_skills_speak_only_of_declared_fluents_and_arguments(kind: Kind) -> None
 def test_a_safe_skill_needs_nothing_and_shows_its_effect(kind: Kind) -> None:
     """A safe call is judged by the freshness of its effects: without any it could never be sent."""
     safe = [skill for skill in kind.skills if skill.safe]
-    assert safe
+    assert safe or not any(fluent.domain == "place" for fluent in kind.fluents), "a robot that travels can be ended"
     assert all(not skill.needs and not skill.params and skill.effects for skill in safe)
+
+
+@by_name
+def test_every_skill_shows_what_telemetry_did_not_show_at_rest(kind: Kind) -> None:
+    """An effect that holds already would count as done whatever the robot did; a safe skill may find it done."""
+    for skill in kind.skills:
+        new = [f for f, value in skill.effects.items() if (known := kind.fluent(f)) and known.resting != value]
+        assert new or skill.puts or skill.reports or skill.safe, skill.name
+
+
+@by_name
+def test_what_is_put_somewhere_is_named_by_arguments_and_parts_hold_an_object(kind: Kind) -> None:
+    for skill in kind.skills:
+        if skill.puts is not None:
+            entities = [param.entity for name in skill.puts if (param := skill.param(name))]
+            assert entities == [Entity.OBJECT, Entity.LOCATION]
+    for part in kind.parts:
+        assert (fluent := kind.fluent(part.holds)) is not None
+        assert fluent.domain == "object"
 
 
 @by_name

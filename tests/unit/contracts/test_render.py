@@ -42,21 +42,30 @@ def _json(schema: object) -> str:
     return json.dumps(schema, indent=2) + "\n"
 
 
-@pytest.mark.parametrize("name", ["search_and_dispatch", "search_only", "dispatch_only", "abort"])
+SHIPPED = {
+    "air_ground": ("search_and_dispatch", "search_only", "dispatch_only", "abort"),
+    "humanoid_quadruped": ("handover", "carry", "navigation_only", "manipulation_only"),
+}
+
+
+@pytest.mark.parametrize(("crew", "name"), [(crew, name) for crew, names in SHIPPED.items() for name in names])
 @pytest.mark.parametrize(("render", "suffix"), [(contract_prose, "txt"), (contract_graph, "mmd")])
-def test_shipped_contract(rules: Rules, name: str, render: Callable[[Contract], str], suffix: str) -> None:
-    check_golden(f"{name}.{suffix}", render(rules.contracts[name]))
+def test_shipped_contract(crew: str, name: str, render: Callable[[Contract], str], suffix: str) -> None:
+    check_golden(f"{name}.{suffix}", render(load_rules(crew).contracts[name]))
 
 
 @pytest.mark.parametrize(("render", "suffix"), [(contract_prose, "txt"), (contract_graph, "mmd")])
-def test_carry(render: Callable[[Contract], str], suffix: str) -> None:
+def test_a_step_with_approval(render: Callable[[Contract], str], suffix: str) -> None:
     text = edited(CARRY_TEXT, "words: [carry, bring]", "approval: true")
-    check_golden(f"carry.{suffix}", render(carry(text)))
+    check_golden(f"approval.{suffix}", render(carry(text)))
 
 
-@pytest.mark.parametrize("robot", ["iris", "tb3"])
-def test_robot_card(rules: Rules, robot: str) -> None:
-    check_golden(f"{robot}.card.txt", robot_card(robot, rules))
+ROBOTS = [("air_ground", "iris"), ("air_ground", "tb3"), ("humanoid_quadruped", "g1"), ("humanoid_quadruped", "go2")]
+
+
+@pytest.mark.parametrize(("crew", "robot"), ROBOTS)
+def test_robot_card(crew: str, robot: str) -> None:
+    check_golden(f"{robot}.card.txt", robot_card(robot, load_rules(crew)))
 
 
 def test_cards_of_kinds_with_objects() -> None:
@@ -81,9 +90,9 @@ def test_plan_tool() -> None:
     check_golden("submit_plan.json", _json(plan_tool()))
 
 
-@pytest.mark.parametrize("robot", ["iris", "tb3"])
-def test_skill_schemas(rules: Rules, robot: str) -> None:
-    check_golden(f"{robot}.schema.json", _json(robot_schemas(robot, rules)))
+@pytest.mark.parametrize(("crew", "robot"), ROBOTS)
+def test_skill_schemas(crew: str, robot: str) -> None:
+    check_golden(f"{robot}.schema.json", _json(robot_schemas(robot, load_rules(crew))))
 
 
 def test_an_unknown_robot_has_no_schemas(rules: Rules) -> None:

@@ -5,7 +5,7 @@ from typing import Annotated
 from crew.contracts.files.contract_file import load_contract
 from crew.contracts.files.crew_file import load_crew
 from crew.contracts.site import Rules
-from crew.contracts.skill import Entity, Fluent, Kind, Skill, SkillArgs, entity
+from crew.contracts.skill import Entity, Fluent, Kind, Part, Skill, SkillArgs, entity
 
 Thing = Annotated[str, entity(Entity.OBJECT, "What to take.")]
 Place = Annotated[str, entity(Entity.LOCATION, "Where to put it.")]
@@ -62,6 +62,7 @@ DOG = Kind(
         ),
         _skill("stop", NoArgs, "stop", effects={"moving": False}, safe=True),
     ),
+    parts=(Part(name="payload_tray", aliases=("tray",), holds="tray", about="On its back."),),
     idle_on_stop="stop",
     idle_on_link_loss="stop",
 )
@@ -75,7 +76,6 @@ robots:
   fido: {kind: quadruped, adapter: unitree, connection: eth2}
 locations:
   pickup: {at: [0, 0]}
-  payload_tray: {at: [0, 0], aliases: [tray]}
   room_a: {at: [4, 4]}
   room_b: {at: [4, -4]}
   room_b2: {at: [2, -4]}

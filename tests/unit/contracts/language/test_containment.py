@@ -138,7 +138,7 @@ def test_dropped_cargo_and_foreign_robots() -> None:
     rules = lab_rules()
     walk = Plan("navigation_only", (Call("rex", "navigate", {"location": "room_a"}),))
     codes = {
-        "bring the cube to room_a": Code.NOT_REQUESTED,
+        "bring the cube to room_a": Code.REQUEST_DROPPED,
         "go to room_a with the cube": Code.REQUEST_DROPPED,
         "send fido to room_a": Code.NOT_REQUESTED,
         "do NOT go to room_a, go to room_b2": Code.FORBIDDEN_BY_REQUEST,
