@@ -1,4 +1,4 @@
-"""Builders for the tests of the humanoid and the quadruped: what each was last heard to hold, and who was seen where."""
+"""Builders for the tests of the humanoid and the quadruped: what each told last, and who was seen where."""
 
 from functools import cache
 from typing import Any

@@ -52,9 +52,11 @@ def test_decisions_are_numbered_and_listed() -> None:
     records = sorted(path for path in DECISIONS.glob("*.md") if path.name != "README.md")
     listed = re.findall(r"\(((\d{4})-[^)]+)\)", (DECISIONS / "README.md").read_text())
     assert [path.name for path in records] == [name for name, _ in listed]
-    for number, path in enumerate(records, start=1):
-        assert path.name.startswith(f"{number:04d}-")
-        assert path.read_text().startswith(f"# {number:04d}. ")
+    numbers = [path.name.partition("-")[0] for path in records]
+    assert len(set(numbers)) == len(numbers)
+    for number, path in zip(numbers, records, strict=True):
+        assert re.fullmatch(r"\d{4}", number)
+        assert path.read_text().startswith(f"# {number}. ")
         assert "**Decision.**" in path.read_text()
 
 
