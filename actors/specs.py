@@ -2,6 +2,7 @@
 
 import msgspec
 
+from crew.bus.link import Link
 from crew.packed import PackedRules
 
 
@@ -9,7 +10,7 @@ class OrchestratorSpec(msgspec.Struct, frozen=True, kw_only=True):
     """What the orchestrator's process is started with."""
 
     rules: PackedRules
-    router: str
+    link: Link
     run_folder: str
     home: str
     epoch: int
@@ -22,7 +23,7 @@ class RobotActorSpec(msgspec.Struct, frozen=True, kw_only=True):
 
     rules: PackedRules
     robot: str
-    router: str
+    link: Link
     connection: str
     simulated: bool
     operator_key: bytes
@@ -32,7 +33,7 @@ class PlannerSpec(msgspec.Struct, frozen=True, kw_only=True):
     """What the planner's process is started with. `script` is a JSON file with a list of plans."""
 
     rules: PackedRules
-    router: str
+    link: Link
     planner: str
     script: str = ""
 
@@ -41,4 +42,4 @@ class GatewaySpec(msgspec.Struct, frozen=True, kw_only=True):
     """What the gateway's process is started with."""
 
     crew: str
-    router: str
+    link: Link

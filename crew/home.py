@@ -9,6 +9,7 @@ from pathlib import Path
 
 import msgspec
 
+from crew.bus.link import Link
 from crew.errors import UsageError
 from crew.keys import checked_chunk
 
@@ -20,11 +21,21 @@ class Running(msgspec.Struct, frozen=True, kw_only=True):
     pid: int
     run_folder: str
     endpoint: str
+    guests: str
+    """Where the router takes guests in."""
+    certificates: str
     started_wall_ns: int
+
+    def link(self, role: str) -> Link:
+        """The way of a role to this crew's router."""
+        return Link(role=role, endpoint=self.endpoint, crew=self.crew, certificates=self.certificates)
 
 
 class Home:
-    """The folder at `path`: `keys/`, `epochs/<crew>`, `heads/<run>.json`, `running/<crew>.json`."""
+    """The folder at `path`.
+
+    It holds `keys/`, `certificates/<crew>/`, `epochs/<crew>`, `heads/<run>.json` and `running/<crew>.json`.
+    """
 
     def __init__(self, path: Path) -> None:
         self.path = path
@@ -41,6 +52,10 @@ class Home:
     @property
     def keys(self) -> Path:
         return self.path / "keys"
+
+    def certificates(self, crew: str) -> Path:
+        """Where a crew's authority and certificates lie; crews do not share one."""
+        return self._folder("certificates").absolute() / checked_chunk(crew, "crew name")
 
     def head(self, run_id: str) -> Path:
         """Where the signed head of a run's journal is kept outside the run's folder."""
@@ -60,13 +75,15 @@ class Home:
         return epoch
 
     @contextmanager
-    def claim(self, crew: str, run_folder: Path, endpoint: str) -> Iterator[Running]:
+    def claim(self, crew: str, run_folder: Path, endpoint: str, guests: str = "") -> Iterator[Running]:
         """Hold the crew's name for this process; UsageError naming the holder if another one runs."""
         running = Running(
             crew=checked_chunk(crew, "crew name"),
             pid=os.getpid(),
             run_folder=str(run_folder.absolute()),
             endpoint=endpoint,
+            guests=guests,
+            certificates=str(self.certificates(crew)),
             started_wall_ns=time.time_ns(),
         )
         path = self._folder("running") / f"{crew}.json"

@@ -91,7 +91,7 @@ async def main(context: ChildContext) -> None:
     except ValueError as error:
         raise UsageError(f"the simulated world can't be made: {error}") from error
     with world:
-        async with ZenohBus("simulation", [spec.router]) as bus:
+        async with ZenohBus(spec.link) as bus:
             keys = Keys(spec.crew)
             simulation = Simulation(bus, keys, world, spec.vehicles, spec.speed)
             with_token = bus.token(keys.alive("simulation"))

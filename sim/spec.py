@@ -4,6 +4,7 @@ from collections.abc import Mapping
 
 import msgspec
 
+from crew.bus.link import Link
 from crew.sim.config import WorldConfig
 
 
@@ -11,7 +12,7 @@ class SimulationSpec(msgspec.Struct, frozen=True, kw_only=True):
     """What the simulation process is started with. `speed` 0 is lockstep: as fast as everybody can follow."""
 
     crew: str
-    router: str
+    link: Link
     world: WorldConfig
     vehicles: Mapping[str, str]
     """Robot to the vehicle of the scene that it is."""

@@ -68,7 +68,7 @@ class Gateway:
 async def main(context: ChildContext) -> None:
     """Serve until asked to stop."""
     spec = context.spec(GatewaySpec)
-    async with ZenohBus("gateway", [spec.router]) as bus:
+    async with ZenohBus(spec.link) as bus:
         await serve(spec.crew, bus, context)
 
 

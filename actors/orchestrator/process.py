@@ -31,7 +31,7 @@ async def main(context: ChildContext) -> None:
     """Serve until asked to stop. A journal that fails ends the process: robots then do what they declare."""
     spec = context.spec(OrchestratorSpec)
     rules = unpack(spec.rules)
-    async with ZenohBus("orchestrator", [spec.router]) as bus:
+    async with ZenohBus(spec.link) as bus:
         await serve(spec, rules, bus, context)
 
 

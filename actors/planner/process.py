@@ -82,7 +82,7 @@ async def main(context: ChildContext) -> None:
     spec = context.spec(PlannerSpec)
     rules = unpack(spec.rules)
     backend = make_backend(spec.planner, rules, spec.script)
-    async with ZenohBus("planner", [spec.router]) as bus:
+    async with ZenohBus(spec.link) as bus:
         await serve(rules, backend, bus, context)
 
 

@@ -23,7 +23,7 @@ async def main(context: ChildContext) -> None:
     """Serve until asked to stop."""
     spec = context.spec(RobotActorSpec)
     rules = unpack(spec.rules)
-    async with ZenohBus(f"robot-{spec.robot}", [spec.router]) as bus:
+    async with ZenohBus(spec.link) as bus:
         await serve(spec, rules, bus, context)
 
 

@@ -1,6 +1,7 @@
 """The one place that opens Zenoh sessions, so that who may connect, and how, is decided once.
 
-Everybody but the router is a client that listens nowhere. Both functions block: call them in `asyncio.to_thread`.
+Everybody but the router is a client that listens nowhere and trusts nobody but the router. Both functions block: call
+them in `asyncio.to_thread`.
 """
 
 import json
@@ -9,6 +10,8 @@ from typing import Any
 
 import zenoh
 
+from crew.access import client_access, router_access
+from crew.bus.link import Link
 from crew.errors import BusError, UsageError
 
 CONNECT_TIMEOUT_S = 5.0
@@ -19,29 +22,52 @@ LEASE_MS = 2000
 """A peer that says nothing for so long is gone (a process that dies is noticed at once)."""
 
 
-def open_session(role: str, endpoints: Sequence[str], *, timeout_s: float = CONNECT_TIMEOUT_S) -> zenoh.Session:
-    """A client session for `role`; BusError if no router answers on `endpoints` (`tcp/host:port`) in time."""
-    settings = {**_common(), "mode": "client", "listen": {"endpoints": []}, "connect": _connect(endpoints, timeout_s)}
+def open_session(link: Link, *, timeout_s: float = CONNECT_TIMEOUT_S) -> zenoh.Session:
+    """A client session; BusError if no router answers in time, UsageError if the certificate is at fault."""
+    settings = {
+        **_common(),
+        "mode": "client",
+        "listen": {"endpoints": []},
+        "connect": _connect(link.endpoint, timeout_s),
+        "transport/link/protocols": [link.endpoint.partition("/")[0]],
+    }
+    if (identity := link.identity) is not None:
+        settings |= {"transport/link/tls": _tls(link, "connect"), "access_control": client_access(identity)}
     try:
         return zenoh.open(_config(settings))
     except zenoh.ZError as error:
+        _blame_certificate(link)
         raise BusError(
-            f"no router for {role} on {', '.join(endpoints)}: nothing after {timeout_s} s ({_brief(error)}); "
+            f"no router for {link.role} on {link.endpoint}: nothing after {timeout_s} s ({_brief(error)}); "
             f"is the crew up on this address? (crew status)"
         ) from error
 
 
-def open_router(listen: str) -> zenoh.Session:
-    """The router's session on `listen` (`tcp/host:port`); UsageError if the address cannot be listened on."""
-    listening = {"endpoints": [listen], "timeout_ms": 0, "exit_on_failure": True}
-    settings = {**_common(), "mode": "router", "listen": listening, "connect": {"endpoints": []}}
+def open_router(link: Link, robots: Sequence[str], *, guests: str = "") -> zenoh.Session:
+    """The router's session on `link`, and on `guests` (`tcp/127.0.0.1:port`) for those without a certificate.
+
+    UsageError if an address cannot be listened on, or the certificate is at fault.
+    """
+    endpoints = [link.endpoint, guests] if guests else [link.endpoint]
+    settings = {
+        **_common(),
+        "mode": "router",
+        "listen": {"endpoints": endpoints, "timeout_ms": 0, "exit_on_failure": True},
+        "connect": {"endpoints": []},
+        "transport/link/protocols": [endpoint.partition("/")[0] for endpoint in endpoints],
+        "transport/link/tls": _tls(link, "listen"),
+        "access_control": router_access(link.crew, robots),
+    }
     try:
         return zenoh.open(_config(settings))
     except zenoh.ZError as error:
+        _blame_certificate(link)
         taken = "Address already in use" in str(error)
         what = "port in use" if taken else "cannot listen"
-        remedy = "stop what holds it (ss -ltnp) or choose another port" if taken else "write it as tcp/127.0.0.1:7447"
-        raise UsageError(f"{what}: the router was to listen on {listen} ({_brief(error)}); {remedy}") from error
+        remedy = "stop what holds it (ss -ltnp) or choose another port" if taken else "write it as tls/127.0.0.1:7448"
+        raise UsageError(
+            f"{what}: the router was to listen on {' and '.join(endpoints)} ({_brief(error)}); {remedy}"
+        ) from error
 
 
 def _common() -> dict[str, Any]:
@@ -53,14 +79,30 @@ def _common() -> dict[str, Any]:
     }
 
 
-def _connect(endpoints: Sequence[str], timeout_s: float) -> dict[str, Any]:
+def _connect(endpoint: str, timeout_s: float) -> dict[str, Any]:
     retry = {"period_init_ms": RETRY_MS, "period_max_ms": RETRY_MS, "period_increase_factor": 1}
+    return {"endpoints": [endpoint], "timeout_ms": round(timeout_s * 1000), "exit_on_failure": True, "retry": retry}
+
+
+def _tls(link: Link, side: str) -> dict[str, Any]:
+    """Mutual TLS with the crew's own authority. `side` is `connect` or `listen`."""
     return {
-        "endpoints": list(endpoints),
-        "timeout_ms": round(timeout_s * 1000),
-        "exit_on_failure": True,
-        "retry": retry,
+        "root_ca_certificate": str(link.authority),
+        "enable_mtls": True,
+        "verify_name_on_connect": True,
+        f"{side}_certificate": str(link.certificate),
+        f"{side}_private_key": str(link.private_key),
     }
+
+
+def _blame_certificate(link: Link) -> None:
+    """Raise UsageError if this role's certificate is why a session did not open."""
+    if link.certificates:
+        from pathlib import Path
+
+        from crew.authority import check
+
+        check(Path(link.certificates), [link.role])
 
 
 def _config(settings: Mapping[str, Any]) -> zenoh.Config:

@@ -2,15 +2,18 @@
 
 import asyncio
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from types import TracebackType
 from typing import Any, Self, TypeVar
 
 import zenoh
 from zenoh.handlers import Callback
 
+from crew.access import Way
 from crew.bus.keyexpr import checked_key_expr, is_key
+from crew.bus.link import Link
 from crew.bus.port import Body, Handler, Inbox, Qos, Reply, Sample, packed
+from crew.bus.rights import Rights
 from crew.bus.scope import Scope
 from crew.bus.session import CONNECT_TIMEOUT_S, open_session
 from crew.errors import BusError, CrewError
@@ -30,19 +33,21 @@ _ERROR_TEXT = "text/plain"
 
 
 class ZenohBus:
-    """One client session, opened and closed by `async with`. BusError if no router answers in time."""
+    """One client session, opened and closed by `async with`. BusError if no router answers in time.
 
-    def __init__(self, role: str, endpoints: Sequence[str], *, timeout_s: float = CONNECT_TIMEOUT_S) -> None:
-        self._role = role
-        self._endpoints = endpoints
+    What the role has no right to is refused here, with BusError, before the router would silently drop it.
+    """
+
+    def __init__(self, link: Link, *, timeout_s: float = CONNECT_TIMEOUT_S) -> None:
+        self._link = link
+        self._role = link.role
+        self._rights = Rights(link.identity)
         self._timeout_s = timeout_s
         self._scope = Scope()
         self._declared: set[_Declared] = set()
 
     async def __aenter__(self) -> Self:
-        opening = asyncio.ensure_future(
-            asyncio.to_thread(open_session, self._role, self._endpoints, timeout_s=self._timeout_s)
-        )
+        opening = asyncio.ensure_future(asyncio.to_thread(open_session, self._link, timeout_s=self._timeout_s))
         try:
             self._session = await asyncio.shield(opening)
         except asyncio.CancelledError:
@@ -60,6 +65,7 @@ class ZenohBus:
             await asyncio.to_thread(self._session.close)
 
     def put(self, key: str, body: Body, *, qos: Qos) -> None:
+        self._rights.to_write(Way.PUT, key)
         payload, encoding = packed(body)
         try:
             self._session.put(_checked_key(key), payload, encoding=encoding, **_QOS[qos])
@@ -67,6 +73,7 @@ class ZenohBus:
             raise self._refused(error, key) from error
 
     def publisher(self, key: str, *, qos: Qos) -> "_Publisher":
+        self._rights.to_write(Way.PUT, key)
         publisher = self._try(lambda: self._session.declare_publisher(_checked_key(key), **_QOS[qos]), key)
         return _Publisher(self, publisher, key)
 
@@ -74,6 +81,7 @@ class ZenohBus:
         return self.on_sample(key_expr, inbox.offer, remote_only=remote_only)
 
     def on_sample(self, key_expr: str, callback: Callable[[Sample], None], *, remote_only: bool = False) -> "_Declared":
+        self._rights.to_read(Way.PUT, key_expr)
         deliver = self._scope.caught(callback)
 
         def on_sample(sample: zenoh.Sample) -> None:
@@ -88,6 +96,7 @@ class ZenohBus:
         )
 
     async def query(self, key_expr: str, body: Body, *, timeout_s: float, qos: Qos = Qos.EVENT) -> list[Reply]:
+        self._rights.to_write(Way.ASK, key_expr)
         loop = asyncio.get_running_loop()
         done: asyncio.Future[None] = loop.create_future()
         replies: list[Reply] = []
@@ -122,6 +131,8 @@ class ZenohBus:
         return replies
 
     def queryable(self, key_expr: str, handler: Handler, *, remote_only: bool = False) -> "_Declared":
+        self._rights.to_read(Way.ASK, key_expr)
+
         def on_query(query: zenoh.Query) -> None:
             self._scope.serve(_asked(query), handler, lambda body: _answer(query, key_expr, body))
 
@@ -133,9 +144,12 @@ class ZenohBus:
         )
 
     def token(self, key: str) -> "_Declared":
+        self._rights.to_write(Way.ALIVE, key)
         return self._declare(lambda: self._session.liveliness().declare_token(_checked_key(key)), key)
 
     def watch_liveliness(self, key_expr: str, callback: Callable[[str, bool], None]) -> "_Declared":
+        self._rights.to_read(Way.ALIVE, key_expr)
+
         def on_change(sample: zenoh.Sample) -> None:
             self._scope.call(callback, str(sample.key_expr), sample.kind == zenoh.SampleKind.PUT)
 

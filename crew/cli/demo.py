@@ -119,7 +119,8 @@ def _goal(step: PlannedStep, truth: SimTruth) -> tuple[float, float] | None:
 
 
 def _introduce(crew: LiveCrew, request: str, ready_s: float) -> None:
-    say(coloured(UNSECURED, "amber"))
+    if crew.unsecured:
+        say(coloured(UNSECURED, "amber"))
     robots = ", ".join(
         f"{r.robot} ({r.kind}{': ' + r.unavailable if r.unavailable else ''})" for r in crew.status.robots
     )

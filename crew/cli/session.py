@@ -44,7 +44,7 @@ def find_running(crew: str) -> Running:
 async def operator(crew: str) -> AsyncIterator[tuple[Bus, Keys, Running]]:
     """A session with a running crew. Raises UsageError or BusError in plain words."""
     running = find_running(crew)
-    bus = ZenohBus("operator", [running.endpoint], timeout_s=CONNECT_S)
+    bus = ZenohBus(running.link("operator"), timeout_s=CONNECT_S)
     async with AsyncExitStack() as stack:
         try:
             await stack.enter_async_context(bus)

@@ -75,11 +75,12 @@ async def _show_robots(crew: LiveCrew) -> None:
 
 
 def _introduce(crew: LiveCrew, ready_s: float) -> None:
-    say(coloured(UNSECURED, "amber"))
+    if crew.unsecured:
+        say(coloured(UNSECURED, "amber"))
     say(f"{crew.name} is up after {ready_s:.1f} s")
     for robot in crew.status.robots:
         state = coloured(f"not available: {robot.unavailable}", "red") if robot.unavailable else "available"
         say(f"  {robot.robot:10} {robot.kind:12} {state}")
-    say(f"  router     {crew.router}")
+    say(f"  router     {crew.running.endpoint}; guests {crew.running.guests}")
     say(f"  run        {crew.run_folder}")
     say('ask it for something: crew request "..."; stop everything: crew stop; end: Ctrl-C')

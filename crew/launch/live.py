@@ -7,34 +7,44 @@ from collections.abc import AsyncIterator
 from contextlib import AsyncExitStack, asynccontextmanager
 from pathlib import Path
 
+from crew.authority import establish
 from crew.bus.port import Bus
 from crew.bus.zenoh import ZenohBus
 from crew.contracts.site import Rules
 from crew.errors import UsageError
-from crew.home import Home
+from crew.home import Home, Running
 from crew.keys import Keys
 from crew.launch.options import LaunchOptions
 from crew.launch.ready import await_ready
 from crew.launch.single import SingleProcess
 from crew.launch.site import resolve
-from crew.launch.table import free_tcp_port, process_table
+from crew.launch.table import free_tcp_port, process_table, roles
 from crew.messages import CrewStatus
 from crew.signing import load_or_create_key
 from crew.supervisor import Exit, Supervisor
 
 READY_S = 20.0
 OPERATOR = "operator"
-UNSECURED = "UNSECURED: simulation only (any process on this machine can reach the bus)"
+UNSECURED = "UNSECURED: simulation only (--single-process: one process holds every role's key)"
 
 
 class LiveCrew:
     """A crew that is up: where it is, what it was made from, and who has died since."""
 
     def __init__(
-        self, rules: Rules, run_folder: Path, router: str, bus: Bus, exits: "asyncio.Queue[Exit]", pids: dict[str, int]
+        self,
+        rules: Rules,
+        running: Running,
+        bus: Bus,
+        exits: "asyncio.Queue[Exit]",
+        pids: dict[str, int],
+        *,
+        unsecured: bool,
     ) -> None:
-        self.rules, self.run_folder, self.router = rules, run_folder, router
+        self.rules, self.running, self.run_folder = rules, running, Path(running.run_folder)
         self.bus, self.exits, self.pids = bus, exits, pids
+        self.unsecured = unsecured
+        """One process holds every role's key."""
         self.keys = Keys(rules.crew.name)
         self.status: CrewStatus
 
@@ -47,17 +57,18 @@ class LiveCrew:
 async def live_crew(options: LaunchOptions, home: Home) -> AsyncIterator[LiveCrew]:
     """Bring a crew up; yield it once a round trip through its keys has shown every robot; bring it down."""
     rules = resolve(options)
-    port = options.port or free_tcp_port()
-    router = f"tcp/127.0.0.1:{port}"
+    establish(home.certificates(rules.crew.name), rules.crew.name, roles(rules))
+    guests = f"tcp/127.0.0.1:{options.port or free_tcp_port()}"
     run_folder = new_run_folder(options.runs, rules.crew.name)
     exits: asyncio.Queue[Exit] = asyncio.Queue()
     async with AsyncExitStack() as stack:
-        stack.enter_context(home.claim(rules.crew.name, run_folder, router))
+        endpoint = f"tls/127.0.0.1:{free_tcp_port()}"
+        running = stack.enter_context(home.claim(rules.crew.name, run_folder, endpoint, guests))
         _write_resolved(rules, options, run_folder)
         children = process_table(
             rules,
             options,
-            router=router,
+            running=running,
             run_folder=run_folder,
             home=home.path.absolute(),
             epoch=home.next_epoch(rules.crew.name),
@@ -69,8 +80,8 @@ async def live_crew(options: LaunchOptions, home: Home) -> AsyncIterator[LiveCre
             runner = Supervisor(run_folder, on_exit=exits.put_nowait)
         await stack.enter_async_context(runner)
         await runner.start(children, ready_timeout_s=READY_S)
-        bus = await stack.enter_async_context(ZenohBus("operator", [router]))
-        crew = LiveCrew(rules, run_folder, router, bus, exits, runner.pids)
+        bus = await stack.enter_async_context(ZenohBus(running.link(OPERATOR)))
+        crew = LiveCrew(rules, running, bus, exits, runner.pids, unsecured=options.single_process)
         names = [r.name for r in rules.crew.robots]
         crew.status = await await_ready(bus, crew.keys, names, timeout_s=READY_S, died=lambda: _first_exit(exits))
         yield crew

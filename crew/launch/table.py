@@ -4,8 +4,10 @@ import socket
 from collections.abc import Mapping
 from pathlib import Path
 
+from crew.access import ROBOT_PREFIX, ROUTER, Role, identities
 from crew.actors.specs import GatewaySpec, OrchestratorSpec, PlannerSpec, RobotActorSpec
 from crew.contracts.site import Rules
+from crew.home import Running
 from crew.launch.options import LaunchOptions
 from crew.packed import pack
 from crew.router import RouterSpec
@@ -18,7 +20,7 @@ def process_table(
     rules: Rules,
     options: LaunchOptions,
     *,
-    router: str,
+    running: Running,
     run_folder: Path,
     home: Path,
     epoch: int,
@@ -29,7 +31,7 @@ def process_table(
     ports = {robot.name: free_udp_port() for robot in rules.crew.robots}
     orchestrator = OrchestratorSpec(
         rules=packed,
-        router=router,
+        link=running.link("orchestrator"),
         run_folder=str(run_folder),
         home=str(home),
         epoch=epoch,
@@ -43,7 +45,7 @@ def process_table(
             spec=RobotActorSpec(
                 rules=packed,
                 robot=robot.name,
-                router=router,
+                link=running.link(f"{ROBOT_PREFIX}{robot.name}"),
                 connection=f"udpin:127.0.0.1:{ports[robot.name]}",
                 simulated=True,
                 operator_key=operator_key,
@@ -51,20 +53,33 @@ def process_table(
         )
         for robot in rules.crew.robots
     ]
-    planner = PlannerSpec(rules=packed, router=router, planner=options.planner, script=options.script)
+    planner = PlannerSpec(rules=packed, link=running.link("planner"), planner=options.planner, script=options.script)
     return [
-        Child(name="router", module="crew.router", spec=RouterSpec(router), last=True),
-        Child(name="simulation", module="crew.sim.process", spec=_simulation(rules, options, router, ports)),
+        Child(name="router", module="crew.router", spec=_router(rules, running), last=True),
+        Child(name="simulation", module="crew.sim.process", spec=_simulation(rules, options, running, ports)),
         *robots,
         Child(name="orchestrator", module="crew.actors.orchestrator.process", spec=orchestrator),
         Child(name="planner", module="crew.actors.planner.process", spec=planner),
         Child(
-            name="gateway", module="crew.actors.gateway.process", spec=GatewaySpec(crew=rules.crew.name, router=router)
+            name="gateway",
+            module="crew.actors.gateway.process",
+            spec=GatewaySpec(crew=rules.crew.name, link=running.link("gateway")),
         ),
     ]
 
 
-def _simulation(rules: Rules, options: LaunchOptions, router: str, ports: Mapping[str, int]) -> SimulationSpec:
+def roles(rules: Rules) -> list[str]:
+    """Everybody who needs a certificate in this crew."""
+    everybody = identities(rules.crew.name, (robot.name for robot in rules.crew.robots))
+    return [ROUTER, *(identity.name for identity in everybody if identity.role is not Role.GUEST)]
+
+
+def _router(rules: Rules, running: Running) -> RouterSpec:
+    robots = tuple(robot.name for robot in rules.crew.robots)
+    return RouterSpec(link=running.link(ROUTER), robots=robots, guests=running.guests)
+
+
+def _simulation(rules: Rules, options: LaunchOptions, running: Running, ports: Mapping[str, int]) -> SimulationSpec:
     sim = rules.crew.sim
     assert sim is not None, "resolve() refuses a crew without it"
     world = WorldConfig(
@@ -75,7 +90,9 @@ def _simulation(rules: Rules, options: LaunchOptions, router: str, ports: Mappin
         links={robot.sim: f"udp:127.0.0.1:{ports[robot.name]}" for robot in rules.crew.robots},
     )
     vehicles = {robot.name: robot.sim for robot in rules.crew.robots}
-    return SimulationSpec(crew=rules.crew.name, router=router, world=world, vehicles=vehicles, speed=options.speed)
+    return SimulationSpec(
+        crew=rules.crew.name, link=running.link("simulation"), world=world, vehicles=vehicles, speed=options.speed
+    )
 
 
 def free_udp_port() -> int:

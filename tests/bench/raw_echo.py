@@ -5,6 +5,7 @@ import asyncio
 import msgspec
 import zenoh
 
+from crew.bus.link import Link
 from crew.bus.session import open_session
 from crew.process import ChildContext, run_child
 
@@ -20,7 +21,7 @@ class EchoSpec(msgspec.Struct, frozen=True):
 
 async def main(context: ChildContext) -> None:
     """Echo until asked to stop."""
-    session = await asyncio.to_thread(open_session, "echo", [context.spec(EchoSpec).router])
+    session = await asyncio.to_thread(open_session, Link(role="echo", endpoint=context.spec(EchoSpec).router))
     publisher = session.declare_publisher(
         ANSWER, congestion_control=zenoh.CongestionControl.BLOCK, priority=zenoh.Priority.REAL_TIME, express=True
     )

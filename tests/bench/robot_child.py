@@ -6,6 +6,7 @@ import msgspec
 
 from crew.actors.robot.actor import RobotActor
 from crew.adapter import AdapterConfig, Place, Reading
+from crew.bus.link import Link
 from crew.bus.zenoh import ZenohBus
 from crew.clock import Clock, WallClock
 from crew.contracts.skill import SkillArgs
@@ -18,9 +19,9 @@ ROBOT = "tb3"
 
 
 class IdleSpec(msgspec.Struct, frozen=True):
-    """Where the router is."""
+    """Its way to the router."""
 
-    router: str
+    link: Link
 
 
 class IdleAdapter:
@@ -75,7 +76,7 @@ async def main(context: ChildContext) -> None:
     assert robot is not None
     clock = WallClock()
     config = AdapterConfig(robot=ROBOT, kind=robot.kind, connection="", area=(-6, 10, -6, 10), origin=(0, 0, 0))
-    async with ZenohBus("robot", [context.spec(IdleSpec).router]) as bus:
+    async with ZenohBus(context.spec(IdleSpec).link) as bus:
         actor = RobotActor(bus, Keys("bench"), robot, rules, IdleAdapter(config, clock), clock, b"")
         context.ready()
         await actor.run()

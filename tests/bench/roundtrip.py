@@ -1,4 +1,7 @@
-"""From a dispatch's put to the robot's accepted event, beside raw Zenoh through the same router, interleaved."""
+"""From a dispatch's put to the robot's accepted event through the locked router, beside raw Zenoh through an open one.
+
+Both are measured in turns, in one run.
+"""
 
 import asyncio
 import os
@@ -10,6 +13,9 @@ from pathlib import Path
 import uvloop
 import zenoh
 
+from crew.access import ROBOT_PREFIX, ROUTER, Role
+from crew.authority import establish
+from crew.bus.link import Link
 from crew.bus.port import Qos
 from crew.bus.session import open_session
 from crew.bus.zenoh import ZenohBus
@@ -23,8 +29,10 @@ from crew.supervisor import Child, Supervisor
 from crew.wire import encode
 from tests.bench.raw_echo import ANSWER, ASK, EchoSpec
 from tests.bench.robot_child import ROBOT, IdleSpec
+from tests.open_router import OpenRouterSpec
 
 KEYS = Keys("bench")
+ORCHESTRATOR = str(Role.ORCHESTRATOR)
 WARM_UP = 50
 
 
@@ -36,17 +44,26 @@ def measure(rounds: int) -> tuple[list[float], list[float]]:
 
 
 async def _measure(rounds: int) -> tuple[list[float], list[float]]:
-    router = f"tcp/127.0.0.1:{free_tcp_port()}"
-    children = [
-        Child(name="router", module="crew.router", spec=RouterSpec(router), last=True),
-        Child(name="echo", module="tests.bench.raw_echo", spec=EchoSpec(router)),
-        Child(name="robot", module="tests.bench.robot_child", spec=IdleSpec(router)),
-    ]
+    floor = f"tcp/127.0.0.1:{free_tcp_port()}"
     with tempfile.TemporaryDirectory() as folder:
+        certificates = Path(folder) / "certificates"
+        establish(certificates, KEYS.crew, [ROUTER, ORCHESTRATOR, f"{ROBOT_PREFIX}{ROBOT}"])
+        endpoint = f"tls/127.0.0.1:{free_tcp_port()}"
+
+        def link(role: str) -> Link:
+            return Link(role=role, endpoint=endpoint, crew=KEYS.crew, certificates=str(certificates))
+
+        router = RouterSpec(link=link(ROUTER), robots=(ROBOT,))
+        children = [
+            Child(name="open router", module="tests.open_router", spec=OpenRouterSpec(floor), last=True),
+            Child(name="router", module="crew.router", spec=router, last=True),
+            Child(name="echo", module="tests.bench.raw_echo", spec=EchoSpec(floor)),
+            Child(name="robot", module="tests.bench.robot_child", spec=IdleSpec(link(f"{ROBOT_PREFIX}{ROBOT}"))),
+        ]
         async with Supervisor(Path(folder), on_exit=print) as supervisor:
             await supervisor.start(children, ready_timeout_s=20.0)
-            async with ZenohBus("bench", [router]) as bus:
-                session = await asyncio.to_thread(open_session, "bench", [router])
+            async with ZenohBus(link(ORCHESTRATOR)) as bus:
+                session = await asyncio.to_thread(open_session, Link(role="bench", endpoint=floor))
                 try:
                     return await _interleave(bus, RawPing(session), rounds)
                 finally:

@@ -11,12 +11,15 @@ import time
 from collections.abc import AsyncIterator, Callable, Iterator, Mapping
 from contextlib import asynccontextmanager, contextmanager
 from pathlib import Path
-from typing import Any
+from typing import Any, Self
 
 import msgspec
+import zenoh
 
-from crew.bus.port import Body, Bus, Qos
-from crew.bus.zenoh import ZenohBus
+from crew.access import ROBOT_PREFIX, Identity, Role, Way
+from crew.bus.port import Body, Bus, Qos, packed
+from crew.bus.session import open_session
+from crew.bus.zenoh import _QOS, ZenohBus
 from crew.home import Home, Running
 from crew.journal_reader import read_records
 from crew.keys import Keys
@@ -179,11 +182,48 @@ def wait_until(done: Callable[[], bool], seconds: float) -> bool:
     return done()
 
 
+class Voices:
+    """Sessions with the certificates of a crew's roles, for saying what an operator may not say."""
+
+    def __init__(self, running: Running) -> None:
+        self._running = running
+        self._sessions: dict[str, zenoh.Session] = {}
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        for session in self._sessions.values():
+            session.close()  # type: ignore[no-untyped-call]
+
+    def put(self, key: str, body: Body, qos: Qos) -> None:
+        """Put as the first in the table who may: the operator where he may."""
+        payload, encoding = packed(body)
+        self.of(self.rightful(key)).put(key, payload, encoding=encoding, **_QOS[qos])
+
+    def of(self, role: str) -> zenoh.Session:
+        """A role's session."""
+        if role not in self._sessions:
+            self._sessions[role] = open_session(self._running.link(role))
+        return self._sessions[role]
+
+    def rightful(self, key: str) -> str:
+        """Who may put on a key."""
+        robots = (key.split("/")[2], key.split("/")[-1])
+        known = [f"{ROBOT_PREFIX}{r}" for r in robots if (Path(self._running.certificates) / f"robot-{r}.crt").exists()]
+        names = ["operator", *(str(role) for role in Role if role not in (Role.ROBOT, Role.GUEST)), *known]
+        return next(name for name in names if _may_put(Identity.of(self._running.crew, name), key))
+
+
+def _may_put(identity: Identity, key: str) -> bool:
+    return any(zenoh.KeyExpr(allowed).includes(zenoh.KeyExpr(key)) for allowed in identity.may(Way.PUT))
+
+
 class Watch:
     """An operator's session with a running crew: what was heard, and ways to speak."""
 
-    def __init__(self, bus: Bus, keys: Keys) -> None:
-        self.bus, self.keys = bus, keys
+    def __init__(self, bus: Bus, keys: Keys, voices: "Voices") -> None:
+        self.bus, self.keys, self._voices = bus, keys, voices
         self.states: dict[str, RobotState] = {}
         self.events: list[MissionEvent] = []
         self.robot_events: list[RobotEvent] = []
@@ -218,7 +258,8 @@ class Watch:
     # Speaking.
 
     def put(self, key: str, body: Body, qos: Qos = Qos.EVENT) -> None:
-        self.bus.put(key, body, qos=qos)
+        """Put as the operator, or with the certificate of somebody who may put there."""
+        self._voices.put(key, body, qos)
 
     def ask(self, text: str) -> str:
         """Publish a request; the id that its events will echo."""
@@ -290,10 +331,11 @@ class Watch:
 
 
 @asynccontextmanager
-async def watching(endpoint: str, name: str = NAME) -> AsyncIterator[Watch]:
-    """A session with the crew whose router listens there."""
-    async with ZenohBus("operator", [endpoint]) as bus:
-        yield Watch(bus, Keys(name))
+async def watching(running: Running) -> AsyncIterator[Watch]:
+    """An operator's session with a crew, and the certificates of everybody else in it."""
+    with Voices(running) as voices:
+        async with ZenohBus(running.link("operator")) as bus:
+            yield Watch(bus, Keys(running.crew), voices)
 
 
 def journal(run: Path) -> list[tuple[int, Record]]:

@@ -127,7 +127,7 @@ async def test_a_crew_comes_up_without_a_robot_that_is_not_found(desk: Desk, hal
     assert "not available" in line
     assert "99" in line, "it says which vehicle it looked for"
     assert "99" in desk.crew("status").stdout
-    async with watching(half.running.endpoint) as watch:
+    async with watching(half.running) as watch:
         search = await watch.mission(SHORT_SEARCH)
         assert (search.outcome, search.code) == ("rejected", "robot_unavailable")
         assert (await watch.mission(FAR_DRIVE)).outcome == "completed"

@@ -39,7 +39,7 @@ def up(desk: Desk) -> Iterator[Up]:
 async def watch(up: Up) -> AsyncIterator[Watch]:
     """A session with the crew; after each test every process lives and the crew still drives."""
     pids = up.children()
-    async with watching(up.running.endpoint) as watch:
+    async with watching(up.running) as watch:
         yield watch
         await watch.drives()
     assert up.children() == pids

@@ -9,6 +9,7 @@ from contextlib import asynccontextmanager
 
 import pytest
 
+from crew.access import ROUTER
 from crew.bus.session import open_router
 from crew.launch.ready import query_status
 from tests.integration.crew.harness import (
@@ -40,7 +41,7 @@ def up(desk: Desk) -> Iterator[Up]:
 @asynccontextmanager
 async def both_moving(up: Up) -> AsyncIterator[Watch]:
     """The drone searches and the rover drives."""
-    async with watching(up.running.endpoint) as watch:
+    async with watching(up.running) as watch:
         watch.ask(SEARCH)
         watch.ask(FAR_DRIVE)
         await watch.airborne()
@@ -129,16 +130,16 @@ async def test_robots_of_a_frozen_orchestrator_make_themselves_safe_and_it_sends
 
 
 async def test_a_router_that_dies_leaves_robots_safe_and_a_new_crew_works(desk: Desk, up: Up) -> None:
-    epoch, endpoint = desk.home.epoch("air_ground"), up.running.endpoint
+    epoch, running = desk.home.epoch("air_ground"), up.running
     async with both_moving(up):
         up.kill("router")
         assert wait_until(lambda: "router died (signal 9)" in up.said, 5.0), up.said
     code, said = await asyncio.to_thread(status, desk)
     assert code == 1
-    assert endpoint.partition("/")[2] in said
-    router = await asyncio.to_thread(open_router, endpoint)
+    assert running.endpoint.partition("/")[2] in said
+    router = await asyncio.to_thread(open_router, running.link(ROUTER), ("iris", "tb3"), guests=running.guests)
     try:
-        async with watching(endpoint) as watch:
+        async with watching(running) as watch:
             await both_safe(watch)
     finally:
         await asyncio.to_thread(router.close)
@@ -163,7 +164,7 @@ async def test_a_simulation_that_dies_halts_missions_and_a_new_crew_works(desk: 
 
 
 async def test_without_planner_and_gateway_what_runs_goes_on(desk: Desk, up: Up) -> None:
-    async with watching(up.running.endpoint) as watch:
+    async with watching(up.running) as watch:
         drive = watch.ask(FAR_DRIVE)
         await watch.moving("tb3")
         up.kill("planner")

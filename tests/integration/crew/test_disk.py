@@ -23,7 +23,7 @@ def fill_the_disk(up: Up) -> None:
 async def test_on_a_full_disk_nothing_is_sent_and_the_orchestrator_ends(desk: Desk) -> None:
     with desk.up() as up:
         run = up.run
-        async with watching(up.running.endpoint) as watch:
+        async with watching(up.running) as watch:
             pose = await watch.standing("tb3")
             fill_the_disk(up)
             watch.ask(SHORT_DRIVE)
@@ -38,7 +38,7 @@ async def test_on_a_full_disk_nothing_is_sent_and_the_orchestrator_ends(desk: De
 
 async def test_a_disk_that_fills_up_in_mid_mission_leaves_robots_safe(desk: Desk) -> None:
     with desk.up() as up:
-        async with watching(up.running.endpoint) as watch:
+        async with watching(up.running) as watch:
             watch.ask(FAR_DRIVE)
             await watch.moving("tb3")
             fill_the_disk(up)

@@ -38,7 +38,7 @@ def up(desk: Desk) -> Iterator[Up]:
 @pytest.fixture
 async def watch(desk: Desk, up: Up) -> AsyncIterator[Watch]:
     """A session with the crew, which is released after each test."""
-    async with watching(up.running.endpoint) as watch:
+    async with watching(up.running) as watch:
         await watch.until(lambda: set(BOTH) <= watch.states.keys(), why="states")
         yield watch
         await released(watch, desk)

@@ -9,6 +9,7 @@ from typing import Any, Self, TypeVar
 from crew.actors.orchestrator import process as orchestrator_process
 from crew.actors.robot import process as robot_process
 from crew.adapter import Adapter
+from crew.authority import establish
 from crew.bus.port import Bus
 from crew.bus.zenoh import ZenohBus
 from crew.clock import Clock
@@ -18,7 +19,7 @@ from crew.launch.options import LaunchOptions
 from crew.launch.ready import await_ready
 from crew.launch.single import InlineContext
 from crew.launch.site import resolve
-from crew.launch.table import free_tcp_port, process_table
+from crew.launch.table import free_tcp_port, process_table, roles
 from crew.packed import unpack
 from crew.signing import load_or_create_key
 from crew.supervisor import Child, Supervisor
@@ -31,8 +32,8 @@ READY_S = 30.0
 class ActorThread:
     """One actor on a loop of its own, with a session of its own."""
 
-    def __init__(self, child: Child, router: str) -> None:
-        self.child, self._router = child, router
+    def __init__(self, child: Child) -> None:
+        self.child = child
         self.loop: asyncio.AbstractEventLoop
         self._task: asyncio.Task[None]
         self._ready = threading.Event()
@@ -82,7 +83,7 @@ class ActorThread:
         assert task is not None
         self._task = task
         context: Any = InlineContext(self.child.spec)
-        async with ZenohBus(self.child.name, [self._router]) as bus:
+        async with ZenohBus(self.child.spec.link) as bus:
             telling = asyncio.create_task(self._tell_ready(context))
             try:
                 await self._serve(bus, context)
@@ -111,17 +112,9 @@ async def crew_with_threads(desk: Desk, *names: str, speed: float = 0.0) -> Asyn
     """Bring a crew up; the named actors run here."""
     options = LaunchOptions(crew=NAME, speed=speed, port=0, runs=desk.runs)
     rules = resolve(options)
-    router = f"tcp/127.0.0.1:{free_tcp_port()}"
     folder = new_run_folder(desk.runs, NAME)
-    children = process_table(
-        rules,
-        options,
-        router=router,
-        run_folder=folder,
-        home=desk.home.path,
-        epoch=desk.home.next_epoch(NAME),
-        operator_key=load_or_create_key(desk.home.keys, OPERATOR).public,
-    )
+    establish(desk.home.certificates(NAME), NAME, roles(rules))
+    endpoint, guests = (f"{kind}/127.0.0.1:{free_tcp_port()}" for kind in ("tls", "tcp"))
     adapters: dict[str, Adapter] = {}
     make_adapter = robot_process.make_adapter
 
@@ -132,15 +125,25 @@ async def crew_with_threads(desk: Desk, *names: str, speed: float = 0.0) -> Asyn
     robot_process.make_adapter = remembered
     try:
         async with AsyncExitStack() as stack:
+            running = stack.enter_context(desk.home.claim(NAME, folder, endpoint, guests))
+            children = process_table(
+                rules,
+                options,
+                running=running,
+                run_folder=folder,
+                home=desk.home.path,
+                epoch=desk.home.next_epoch(NAME),
+                operator_key=load_or_create_key(desk.home.keys, OPERATOR).public,
+            )
             supervisor = await stack.enter_async_context(Supervisor(folder, on_exit=lambda _: None))
             await supervisor.start([c for c in children if c.name not in names], ready_timeout_s=READY_S)
             threads = {}
             for child in children:
                 if child.name in names:
-                    threads[child.name] = ActorThread(child, router)
+                    threads[child.name] = ActorThread(child)
                     await asyncio.to_thread(threads[child.name].__enter__)
                     stack.push_async_callback(asyncio.to_thread, threads[child.name].__exit__)
-            watch = await stack.enter_async_context(watching(router))
+            watch = await stack.enter_async_context(watching(running))
             robots = [robot.name for robot in rules.crew.robots]
             await await_ready(watch.bus, watch.keys, robots, timeout_s=READY_S, died=lambda: "")
             yield ThreadedCrew(watch, threads, adapters)

@@ -7,6 +7,7 @@ import threading
 
 import msgspec
 
+from crew.bus.link import Link
 from crew.bus.port import Body, Qos, Sample
 from crew.bus.zenoh import ZenohBus
 from crew.errors import UsageError
@@ -48,7 +49,7 @@ async def main(context: ChildContext) -> None:
 
 
 async def echo(context: ChildContext, endpoint: str) -> None:
-    async with ZenohBus("echo", [endpoint]) as bus:
+    async with ZenohBus(Link(role="echo", endpoint=endpoint)) as bus:
 
         async def answer(question: Sample) -> Body:
             return question.payload, question.encoding

@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from crew.router import RouterSpec
 from crew.supervisor import Child, Exit, Supervisor
+from tests.open_router import OpenRouterSpec
 
 ROOT = Path(__file__).parents[3]
 READY_S = 20.0
@@ -27,7 +27,7 @@ def endpoint() -> str:
 
 @pytest.fixture
 def router(endpoint: str) -> Child:
-    return Child(name="router", module="crew.router", spec=RouterSpec(endpoint), last=True)
+    return Child(name="router", module="tests.open_router", spec=OpenRouterSpec(endpoint), last=True)
 
 
 @pytest.fixture
