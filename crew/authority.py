@@ -31,6 +31,8 @@ BACKDATED = timedelta(days=1)
 VALID = timedelta(days=397)
 AUTHORITY_VALID = timedelta(days=3650)
 EXPIRES_SOON = timedelta(days=30)
+LONGEST_NAME = 64
+"""Of a certificate's common name, by the standard."""
 REMEDY = "make new ones with crew certs rotate"
 
 
@@ -46,7 +48,7 @@ class Certificate(msgspec.Struct, frozen=True, kw_only=True):
 
 
 def establish(
-    folder: Path, crew: str, roles: Sequence[str], *, hosts: Iterable[str] = LOOPBACK, now: datetime | None = None
+    folder: Path, roles: Sequence[str], *, hosts: Iterable[str] = LOOPBACK, now: datetime | None = None
 ) -> list[str]:
     """Make the authority if there is none, issue what has never been issued, check all; names of what was issued.
 
@@ -55,7 +57,7 @@ def establish(
     now = now or datetime.now(UTC)
     with _locked(folder):
         if not any(folder.glob("*.crt")) and not any(folder.glob("*.key")):
-            _make_authority(folder, crew, now)
+            _make_authority(folder, now)
         new = [role for role in roles if not _path(folder, role, "crt").exists() and not _key(folder, role).exists()]
         if new:
             _issue(folder, new, tuple(hosts), now)
@@ -71,11 +73,11 @@ def check(folder: Path, roles: Iterable[str], *, now: datetime | None = None) ->
     return [_checked(folder, role, authority, now) for role in roles]
 
 
-def rotate(folder: Path, crew: str, roles: Sequence[str], *, hosts: Iterable[str] = LOOPBACK) -> None:
+def rotate(folder: Path, roles: Sequence[str], *, hosts: Iterable[str] = LOOPBACK) -> None:
     """A new authority and new certificates in place of all earlier ones, which are worth nothing from then on."""
     fresh = folder.with_name(f".{folder.name}.{os.getpid()}")
     shutil.rmtree(fresh, ignore_errors=True)
-    establish(fresh, crew, roles, hosts=hosts)
+    establish(fresh, roles, hosts=hosts)
     old = folder.with_name(f".{folder.name}.old-{os.getpid()}")
     if folder.exists():
         folder.rename(old)
@@ -103,9 +105,9 @@ def _locked(folder: Path) -> Iterator[None]:
         ) from error
 
 
-def _make_authority(folder: Path, crew: str, now: datetime) -> None:
+def _make_authority(folder: Path, now: datetime) -> None:
     key = ec.generate_private_key(ec.SECP256R1())
-    name = _name(f"crew {crew} authority {secrets.token_hex(4)}")
+    name = _name(f"crew authority {secrets.token_hex(8)}")
     usage = _key_usage(signs_certificates=True)
     made = (
         _builder(name, name, key, now, AUTHORITY_VALID)
@@ -163,6 +165,8 @@ def _key_usage(*, signs_certificates: bool) -> x509.KeyUsage:
 
 
 def _name(common_name: str) -> x509.Name:
+    if len(common_name) > LONGEST_NAME:
+        raise UsageError(f"no certificate can be made for {common_name!r}: over {LONGEST_NAME} characters; rename it")
     return x509.Name([x509.NameAttribute(NameOID.COMMON_NAME, common_name)])
 
 
@@ -192,7 +196,7 @@ def _checked(folder: Path, role: str, authority: x509.Certificate, now: datetime
     key = _private_key(_key(folder, role))
     found = _describe(role, certificate)
     if found.name != role:
-        raise UsageError(f"swapped certificate: {path} is {found.name!r}'s, not {role!r}'s; put it back, or {REMEDY}")
+        raise UsageError(f"swapped certificate: {path} is {found.name}'s, not {role}'s; put it back, or {REMEDY}")
     if key.public_key() != certificate.public_key():
         raise UsageError(f"swapped key: {_key(folder, role)} does not belong to {path}; put it back, or {REMEDY}")
     try:

@@ -57,7 +57,7 @@ class LiveCrew:
 async def live_crew(options: LaunchOptions, home: Home) -> AsyncIterator[LiveCrew]:
     """Bring a crew up; yield it once a round trip through its keys has shown every robot; bring it down."""
     rules = resolve(options)
-    establish(home.certificates(rules.crew.name), rules.crew.name, roles(rules))
+    establish(home.certificates(rules.crew.name), roles(rules))
     guests = f"tcp/127.0.0.1:{options.port or free_tcp_port()}"
     run_folder = new_run_folder(options.runs, rules.crew.name)
     exits: asyncio.Queue[Exit] = asyncio.Queue()

@@ -47,7 +47,7 @@ async def _measure(rounds: int) -> tuple[list[float], list[float]]:
     floor = f"tcp/127.0.0.1:{free_tcp_port()}"
     with tempfile.TemporaryDirectory() as folder:
         certificates = Path(folder) / "certificates"
-        establish(certificates, KEYS.crew, [ROUTER, ORCHESTRATOR, f"{ROBOT_PREFIX}{ROBOT}"])
+        establish(certificates, [ROUTER, ORCHESTRATOR, f"{ROBOT_PREFIX}{ROBOT}"])
         endpoint = f"tls/127.0.0.1:{free_tcp_port()}"
 
         def link(role: str) -> Link:

@@ -69,7 +69,7 @@ async def test_no_router_is_a_clear_error(endpoint: str) -> None:
 async def test_a_taken_port_is_a_usage_error(
     supervisor: Supervisor, routed: None, endpoint: str, tmp_path: Path
 ) -> None:
-    establish(tmp_path / "certificates", "t", [ROUTER])
+    establish(tmp_path / "certificates", [ROUTER])
     taken = endpoint.replace("tcp/", "tls/")
     link = Link(role=ROUTER, endpoint=taken, crew="t", certificates=str(tmp_path / "certificates"))
     rival = Child(name="rival", module="crew.router", spec=RouterSpec(link=link, robots=()))
