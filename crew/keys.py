@@ -5,7 +5,10 @@ from dataclasses import dataclass
 
 from crew.errors import UsageError
 
-RESERVED = frozenset({"mission", "planner", "request", "status", "clock", "sim", "gateway", "orchestrator", "router"})
+RESERVED = frozenset(
+    {"mission", "planner", "request", "status", "clock", "sim", "gateway", "orchestrator", "router"}
+    | {"simulation", "recorder", "operator", "guest"}
+)
 """Names that hold a place of their own beside the robots."""
 
 _CHUNK = re.compile(r"[a-z0-9_-]+", re.ASCII)

@@ -7,7 +7,10 @@ from crew.contracts.files.source import Loc, Problems, locate
 
 AREA = "operational_area"
 """The zone that is the whole area."""
-RESERVED = frozenset({"mission", "planner", "request", "status", "clock", "sim", "gateway", "orchestrator", "router"})
+RESERVED = frozenset(
+    {"mission", "planner", "request", "status", "clock", "sim", "gateway", "orchestrator", "router"}
+    | {"simulation", "recorder", "operator", "guest"}
+)
 """Keys and identities of the crew itself: no robot may bear them."""
 _ARTICLES = ("the ", "a ", "an ")
 

@@ -5,6 +5,7 @@ from pathlib import Path
 import pytest
 from cryptography import x509
 from cryptography.exceptions import InvalidSignature
+from cryptography.x509.oid import ExtendedKeyUsageOID
 
 from crew.authority import BACKDATED, VALID, check, establish, hosts_of, rotate
 from crew.errors import UsageError
@@ -50,7 +51,7 @@ def test_keys_are_private(folder: Path) -> None:
 def test_only_the_router_can_serve_and_others_can_only_connect(folder: Path) -> None:
     for role in ROLES:
         usage = certificate(folder, role).extensions.get_extension_for_class(x509.ExtendedKeyUsage).value
-        wanted = x509.ExtendedKeyUsageOID.SERVER_AUTH if role == "router" else x509.ExtendedKeyUsageOID.CLIENT_AUTH
+        wanted = ExtendedKeyUsageOID.SERVER_AUTH if role == "router" else ExtendedKeyUsageOID.CLIENT_AUTH
         assert list(usage) == [wanted]
     assert hosts_of(folder) == ("127.0.0.1", "localhost")
 
