@@ -9,8 +9,8 @@ SHARED = ("battery_low", "gps_loss", "link_loss", "missed_detection", "nan_trans
 class Faults:
     """Which faults are on. `<robot>_unavailable` exists for each robot of the scene."""
 
-    def __init__(self, robots: Iterable[str], on: Iterable[str] = ()) -> None:
-        self.names = tuple(sorted((*SHARED, *(unavailable(robot) for robot in robots))))
+    def __init__(self, robots: Iterable[str], on: Iterable[str] = (), shared: tuple[str, ...] = SHARED) -> None:
+        self.names = tuple(sorted((*shared, *(unavailable(robot) for robot in robots))))
         self._on: set[str] = set()
         for name in on:
             self.set(name, True)

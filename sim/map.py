@@ -110,6 +110,13 @@ def load_map(scene: str, name: str, folder: Path = MAPS) -> Map:
     return parse_map(path.read_text(encoding="utf-8"), source=path.name)
 
 
+def survey(scene: str, name: str) -> tuple[tuple[float, float, float], tuple[tuple[float, float, float], ...]]:
+    """Origin, and a disc x, y, radius for each obstacle."""
+    found = load_map(scene, name)
+    origin = (found.origin.lat_deg, found.origin.lon_deg, found.origin.alt_m)
+    return origin, tuple((o.x_m, o.y_m, o.reach_m) for o in found.obstacles)
+
+
 def parse_map(text: str, source: str = "map") -> Map:
     """Read a map from YAML 1.2 text. Raises MapError naming `source` and the field."""
     try:

@@ -11,8 +11,8 @@ from crew.mailbox import Events, Letter, letters
 from crew.messages import ClockAck, ClockTick, SimFault, SimTruth
 from crew.process import ChildContext, run_child
 from crew.sim.pace import Lockstep, Pace
+from crew.sim.scenes import SceneWorld, open_world
 from crew.sim.spec import SimulationSpec
-from crew.sim.world import World
 
 SLICE_NS = 50_000_000
 AHEAD = 1
@@ -26,7 +26,7 @@ TRUTH_EVERY = 2
 class Simulation:
     """Owns the world; nobody else reads it but through the bus."""
 
-    def __init__(self, bus: Bus, keys: Keys, world: World, vehicles: Mapping[str, str], speed: float) -> None:
+    def __init__(self, bus: Bus, keys: Keys, world: SceneWorld, vehicles: Mapping[str, str], speed: float) -> None:
         self._world, self._vehicles, self._speed = world, vehicles, speed
         acks: Events[Letter[ClockAck]] = Events(letters(ClockAck), capacity=256, on_lost=lambda _: None)
         self._lockstep = Lockstep(acks)
@@ -62,20 +62,16 @@ class Simulation:
                 print(f"fault refused: {error}")
 
     def _publish(self, number: int) -> None:
-        counts = self._world.counts()
-        sent = {robot: counts[vehicle].sent for robot, vehicle in self._vehicles.items()}
+        counts = self._world.sent()
+        sent = {robot: counts[vehicle] for robot, vehicle in self._vehicles.items()}
         self._ticks.put(ClockTick(slice=number, now_ns=self._world.time_ns, datagrams=sent))
         if number % TRUTH_EVERY == 0:
             self._truths.put(self._truth())
 
     def _truth(self) -> SimTruth:
-        truth = self._world.truth()
-        poses = {
-            robot: (t.x_m, t.y_m, t.z_m, t.yaw_rad)
-            for robot, vehicle in self._vehicles.items()
-            if (t := truth.robots[vehicle])
-        }
-        return SimTruth(at_ns=truth.time_ns, poses=poses, targets={"victim": (truth.victim_x_m, truth.victim_y_m, 0.0)})
+        truth = self._world.scene_truth()
+        poses = {robot: truth.poses[vehicle] for robot, vehicle in self._vehicles.items()}
+        return SimTruth(at_ns=truth.time_ns, poses=poses, targets=truth.targets)
 
     async def _collect_datagrams(self) -> None:
         """Take in what the adapters sent before they acknowledged; loopback delivers at once, so one look is enough."""
@@ -87,7 +83,7 @@ async def main(context: ChildContext) -> None:
     """Open the world and the bus, and run until asked to stop."""
     spec = context.spec(SimulationSpec)
     try:
-        world = World(spec.world)
+        world = open_world(spec.world)
     except ValueError as error:
         raise UsageError(f"the simulated world can't be made: {error}") from error
     with world:

@@ -28,6 +28,14 @@ class Truth(msgspec.Struct, frozen=True, kw_only=True):
     victim_y_m: float
 
 
+class SceneTruth(msgspec.Struct, frozen=True, kw_only=True):
+    """What every scene can tell: robots' poses x, y, z, yaw and other places x, y, z, by name. ENU, metres, radians."""
+
+    time_ns: int
+    poses: dict[str, tuple[float, float, float, float]]
+    targets: dict[str, tuple[float, float, float]]
+
+
 class ContactCounter:
     """Counts the beginnings of contact between one robot and what stands on the ground."""
 

@@ -18,7 +18,7 @@ from crew.sim.faults import Faults
 from crew.sim.geo import GeoFrame
 from crew.sim.map import Map, load_map
 from crew.sim.scene import TIMESTEP_NS, build, robots
-from crew.sim.truth import ContactCounter, RobotTruth, Truth
+from crew.sim.truth import ContactCounter, RobotTruth, SceneTruth, Truth
 from crew.sim.vehicle.estimator import DroneEstimator, RoverEstimator
 from crew.sim.vehicle.quadcopter import Quadcopter
 from crew.sim.vehicle.rover import Rover
@@ -98,6 +98,17 @@ class World:
             robots={"iris": self._robot_truth("iris", self._drone), "tb3": self._robot_truth("tb3", self._rover)},
             victim_x_m=victim.x_m,
             victim_y_m=victim.y_m,
+        )
+
+    def sent(self) -> dict[str, int]:
+        """Datagrams sent to each robot's adapter since the start."""
+        return {name: autopilot.link.count.sent for name, autopilot in self._autopilots.items()}
+
+    def scene_truth(self) -> SceneTruth:
+        truth = self.truth()
+        poses = {name: (t.x_m, t.y_m, t.z_m, t.yaw_rad) for name, t in truth.robots.items()}
+        return SceneTruth(
+            time_ns=truth.time_ns, poses=poses, targets={"victim": (truth.victim_x_m, truth.victim_y_m, 0.0)}
         )
 
     def set_fault(self, name: str, on: bool) -> None:

@@ -31,12 +31,10 @@ def resolve(options: LaunchOptions) -> Rules:
 
 def _surveyed(crew: Crew, sim: SimSpec) -> Crew:
     """The crew with what a surveyor of the simulated site would have written: its origin, a disc for each obstacle."""
-    from crew.sim.map import load_map
+    from crew.sim.scenes import survey
 
     try:
-        site = load_map(sim.scene, sim.map)
+        site = survey(sim.scene, sim.map)
     except ValueError as error:
         raise UsageError(f"the simulated site can't be loaded: {error}") from error
-    obstacles = tuple((o.x_m, o.y_m, o.reach_m) for o in site.obstacles)
-    origin = (site.origin.lat_deg, site.origin.lon_deg, site.origin.alt_m)
-    return replace(crew, sim=sim, origin=origin, obstacles=(*crew.obstacles, *obstacles))
+    return replace(crew, sim=sim, origin=site.origin, obstacles=(*crew.obstacles, *site.obstacles))

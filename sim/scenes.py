@@ -1,0 +1,70 @@
+"""The scenes that the simulation can host, by the name that a crew file gives. A scene is imported once it is opened."""
+
+import importlib
+from collections.abc import Callable
+from types import TracebackType
+from typing import Any, Protocol, Self
+
+import msgspec
+
+from crew.errors import nearest
+from crew.sim.config import WorldConfig
+from crew.sim.map import MapError
+from crew.sim.truth import SceneTruth
+
+SCENES = {
+    "air_ground": ("crew.sim.world:World", "crew.sim.map:survey"),
+}
+"""Each scene's world, and the surveyor of its maps."""
+
+
+class Survey(msgspec.Struct, frozen=True):
+    """What a surveyor would write down of a site: its origin, and its obstacles as discs x, y, radius (ENU, metres)."""
+
+    origin: tuple[float, float, float]
+    obstacles: tuple[tuple[float, float, float], ...]
+
+
+class SceneWorld(Protocol):
+    """What the simulation's process asks of a world: it steps, answers its robots' links, and tells the truth."""
+
+    @property
+    def time_ns(self) -> int: ...
+
+    def advance(self, until_ns: int) -> None: ...
+
+    def poll(self) -> int: ...
+
+    def sent(self) -> dict[str, int]:
+        """Datagrams sent to each robot's adapter since the start."""
+        ...
+
+    def scene_truth(self) -> SceneTruth: ...
+
+    def set_fault(self, name: str, on: bool) -> None: ...
+
+    def __enter__(self) -> Self: ...
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None: ...
+
+
+def open_world(config: WorldConfig) -> SceneWorld:
+    """The world of the scene that the configuration names. Raises ValueError for an unknown one, with those known."""
+    world: SceneWorld = _load(config.scene, 0)(config)
+    return world
+
+
+def survey(scene: str, map_name: str) -> Survey:
+    """The site of a scene's map. Raises MapError."""
+    origin, obstacles = _load(scene, 1)(scene, map_name)
+    return Survey(origin, obstacles)
+
+
+def _load(scene: str, part: int) -> Callable[..., Any]:
+    if scene not in SCENES:
+        raise MapError(f"no scene is called {scene!r}{nearest(scene, SCENES)}")
+    module, _, name = SCENES[scene][part].partition(":")
+    found: Callable[..., Any] = getattr(importlib.import_module(module), name)
+    return found
