@@ -1,4 +1,4 @@
-"""The scenes that the simulation can host, by the name that a crew file gives. A scene is imported once it is opened."""
+"""The scenes that the simulation can host, by the name in a crew file. A scene is imported only once it is opened."""
 
 import importlib
 from collections.abc import Callable
