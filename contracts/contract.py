@@ -37,6 +37,8 @@ class Slot(msgspec.Struct, frozen=True, kw_only=True):
     optional: bool = False
     said_from: bool = False
     """A claim about an origin: it licenses no destination."""
+    beyond: str = ""
+    """A role: only places that the robot in it does not reach."""
 
 
 class Condition(msgspec.Struct, frozen=True, kw_only=True):

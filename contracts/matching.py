@@ -214,6 +214,9 @@ def _finish(plan: Plan, contract: Contract, rules: Rules, binding: Binding) -> I
             message = f"slot {name} of {contract.name} is bound inconsistently"
             return rank, Refusal(code=Code.NOT_IN_CONTRACT, message=message, field=name)
         slots[name] = composite
+    reached = _within_reach(contract, binding.roles, slots, rules)
+    if reached is not None:
+        return rank, reached
     present = {step.name for step in binding.steps}
     missing = [s.name for s in contract.steps if not s.optional and s.name not in present]
     if missing:
@@ -225,6 +228,21 @@ def _finish(plan: Plan, contract: Contract, rules: Rules, binding: Binding) -> I
         return rank + 1, refusal
     before = {step.name: _closed_after(step, contract, present) for step in binding.steps}
     return _in_order(plan, contract, binding, before, slots, rank + 2)
+
+
+def _within_reach(
+    contract: Contract, roles: Mapping[str, str], slots: Mapping[str, SlotValue], rules: Rules
+) -> Refusal | None:
+    """A place that must lie beyond the reach of a role, and does not."""
+    for slot in contract.slots:
+        robot, value = rules.crew.robot(roles.get(slot.beyond, "")), slots.get(slot.name)
+        if robot is not None and value in robot.reach:
+            message = f"{value} is within {robot.name}'s reach; {contract.name} is for places beyond it"
+            allowed = f"a place beyond {', '.join(robot.reach)}"
+            return Refusal(
+                code=Code.NOT_IN_CONTRACT, message=message, field=slot.name, observed=str(value), allowed=allowed
+            )
+    return None
 
 
 def _in_order(

@@ -56,6 +56,8 @@ class Bid(NamedTuple):
     share: float
     likeness: float
     casting: Casting
+    whole: bool
+    """It has room for everything that the request names: such a bid goes before any that would drop something."""
 
 
 def propose(text: str, rules: Rules, state: PlannerState) -> Plan | Abstention:
@@ -65,7 +67,7 @@ def propose(text: str, rules: Rules, state: PlannerState) -> Plan | Abstention:
         return Abstention(f"the request asks for no action that this crew knows ({explain_reading(reading)})")
     cast = (_cast(c, reading, rules) for c in rules.contracts.values())
     bids = [_bid(c, reading, rules, state) for c in cast if c is not None]
-    best = max(bids, key=lambda b: (round(b.share, 6), b.likeness), default=None)
+    best = max(bids, key=lambda b: (b.whole and b.share >= THRESHOLD, round(b.share, 6), b.likeness), default=None)
     if best is None or best.share < THRESHOLD:
         return Abstention(f"no contract of this crew does that ({explain_reading(reading)})")
     calls = tuple(_calls(best.casting, reading, rules, state))
@@ -80,6 +82,7 @@ def _bid(casting: Casting, reading: Reading, rules: Rules, state: PlannerState) 
     contract = casting.contract
     gained = total = 0.0
     asked: set[str] = set()
+    whole = True
     for action in reading.actions:
         weight = 1.0 / max(1, len({ref.contract for ref in action.means}))
         total += weight
@@ -88,12 +91,14 @@ def _bid(casting: Casting, reading: Reading, rules: Rules, state: PlannerState) 
         gained += weight if mine else 0.0
     for mention in reading.wanted:
         if mention.kind is not MentionKind.ACTION:
+            placed = _placed(mention, casting, rules)
             total += 0.5
-            gained += 0.5 if _placed(mention, casting, rules) else 0.0
+            gained += 0.5 if placed else 0.0
+            whole = whole and placed
     missing = sum(1 for name in contract.asks if name not in asked)
-    barred = not all(_entered(c, casting.slots, state) for c in contract.needs)
+    barred = not all(_entered(c, casting.slots, state) for c in contract.needs) or not _in_place(casting, rules)
     share = (gained / total - missing if total else 0.0) - (BARRED if barred else 0.0)
-    return Bid(share, _likeness(contract, casting, reading), casting)
+    return Bid(share, _likeness(contract, casting, reading), casting, whole)
 
 
 def _placed(mention: Mention, casting: Casting, rules: Rules) -> bool:
@@ -159,6 +164,30 @@ def _entered(condition: Condition, slots: Mapping[str, SlotValue], state: Planne
     if condition.path != "requester.near":
         return True
     return state.requester_near is not None and (state.requester_near == condition.value) is not condition.negated
+
+
+def _in_place(casting: Casting, rules: Rules) -> bool:
+    """Whether the places that the slots name suit the robots' reach, as far as the contract limits them."""
+    for slot in casting.contract.slots:
+        value = casting.slots.get(slot.name)
+        beyond = rules.crew.robot(casting.roles.get(slot.beyond, ""))
+        if beyond is not None and value in beyond.reach:
+            return False
+        if isinstance(value, str) and not all(value in r for r in _reaches(slot, casting, rules)):
+            return False
+    return True
+
+
+def _reaches(slot: Slot, casting: Casting, rules: Rules) -> Iterator[tuple[str, ...]]:
+    """The reach of each robot that would have to reach what the slot names."""
+    for step in casting.contract.steps:
+        robot = casting.roles[step.role]
+        spec, known = rules.crew.robot(robot), _skills(robot, rules)
+        for pattern in step.do:
+            skill = known.get(pattern.skill)
+            bound = [p.name for p in skill.params if p.reach] if skill is not None else list(pattern.args)
+            if spec is not None and any(pattern.args.get(name) == f"${slot.name}" for name in bound):
+                yield () if skill is None else spec.reach
 
 
 def _roles(contract: Contract, reading: Reading, rules: Rules) -> dict[str, str] | None:

@@ -4,6 +4,7 @@ import re
 from collections.abc import Iterator
 from graphlib import CycleError, TopologicalSorter
 
+from crew.contracts.contract import SlotType
 from crew.contracts.files.contract_guard import check_guard, check_guards
 from crew.contracts.files.contract_model import ContractModel, StepModel
 from crew.contracts.files.contract_place import check_places
@@ -42,6 +43,12 @@ def _check_slots(model: ContractModel, scope: Scope, problems: Problems) -> None
         if slot.free and slot.default is not None:
             fix = "a default is used before the planner may choose; keep one of them"
             problems.key((*loc, "free"), f"slot {name} is free and has a default", fix=fix)
+        if slot.beyond is not None and slot.beyond not in model.roles:
+            problems.unknown((*loc, "beyond"), "unknown role", slot.beyond, model.roles)
+        elif slot.beyond is not None and SlotType.LOCATION not in scope.slots[name].types:
+            problems.key(
+                (*loc, "beyond"), f"slot {name} is never a location", fix="remove it, or add location to the type"
+            )
         check_default(scope.slots[name], scope, problems)
 
 

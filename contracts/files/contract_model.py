@@ -31,6 +31,7 @@ class SlotModel(FileModel):
     free: Annotated[bool, Field(description="The planner may choose within the skill's bounds")] = False
     optional: Annotated[bool, Field(description="A request may leave the slot open")] = False
     said: Annotated[Literal["from"] | None, Field(description="A claim about an origin")] = None
+    beyond: Annotated[str | None, Field(description="A role: only places that its robot does not reach")] = None
 
 
 class SafeModel(FileModel):

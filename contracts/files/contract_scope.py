@@ -104,6 +104,7 @@ def slot_of(name: str, model: ContractModel, crew: Crew) -> Slot:
         free=written.free,
         optional=written.optional,
         said_from=written.said == "from",
+        beyond=written.beyond or "",
     )
 
 

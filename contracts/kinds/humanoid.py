@@ -25,6 +25,11 @@ class Wave(SkillArgs, frozen=True):
     pass
 
 
+_WAVE = tuple(
+    f"wave{how}"
+    for how in ("", " hello", " to me", " at me", " to us", " at us", " your arm", " your hand", " with your arm")
+)
+
 HUMANOID = Kind(
     name="humanoid",
     about="A standing humanoid with an arm, a gripper and a camera that sees objects and the person who asks.",
@@ -58,7 +63,21 @@ HUMANOID = Kind(
             name="pick_place",
             about="Pick up an object and put it down at a place within reach.",
             args=PickPlace,
-            words=("put", "place", "put down", "set", "set down", "lay", "lay down"),
+            words=(
+                "put",
+                "place",
+                "put down",
+                "set",
+                "set down",
+                "lay",
+                "lay down",
+                "move",
+                "transfer",
+                "shift",
+                "bring",
+                "carry",
+                "take",
+            ),
             needs={"standing": True, "holding": NOTHING},
             effects={"holding": NOTHING, "moving": False},
             during={"moving": True},
@@ -73,7 +92,19 @@ HUMANOID = Kind(
             name="pick_hold",
             about="Pick up an object and keep it in the hand.",
             args=PickHold,
-            words=("pick", "pick up", "hold", "grab", "grasp", "lift", "lift up", "take", "seize"),
+            words=(
+                "pick",
+                "pick up",
+                "hold",
+                "hold up",
+                "grab",
+                "grasp",
+                "lift",
+                "lift up",
+                "take",
+                "seize",
+                "keep hold of",
+            ),
             needs={"standing": True, "holding": NOTHING},
             effects={"holding": "$object"},
             during={"moving": True},
@@ -86,7 +117,7 @@ HUMANOID = Kind(
             name="wave",
             about="Wave with the arm.",
             args=Wave,
-            words=("wave", "greet"),
+            words=(*_WAVE, "greet", "greet me", "give me a wave", "give us a wave", "say hello", "say hi"),
             needs={"standing": True},
             effects={"waved": True},
             during={"moving": True, "waved": False},

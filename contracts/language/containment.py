@@ -219,7 +219,10 @@ def _present(case: Case) -> list[SlotValue]:
 
 def _holds(case: Case, mention: Mention, values: list[SlotValue]) -> bool:
     """Whether the plan carries what a mention names; a place given as an origin is not honoured by going there."""
-    if mention.direction is not Direction.TO and any(v in _constants(case) for v in mention.values):
+    fixed = _constants(case)
+    if mention.direction is Direction.TO:
+        fixed &= set(case.rules.parts)
+    if any(v in fixed for v in mention.values):
         return True
     return mention.direction is not Direction.FROM and any(same(v, p) for v in mention.values for p in values)
 
@@ -266,8 +269,8 @@ def _missing(case: Case, action: Mention) -> str | None:
 
 def _meant(case: Case, action: Mention) -> list[tuple[int, InstanceStep]]:
     """The steps of the plan that an action word can mean."""
-    names = {ref.step for ref in action.means if ref.contract == case.contract.name}
-    return [(k, item) for k, item in enumerate(case.instance.steps) if item.step in names]
+    meant = {(ref.step, ref.skill) for ref in action.means if ref.contract == case.contract.name}
+    return [(k, item) for k, item in enumerate(case.instance.steps) if (item.step, item.call.skill) in meant]
 
 
 def _assigned(case: Case, action: Mention) -> Iterator[tuple[int, InstanceStep]]:

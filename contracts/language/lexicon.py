@@ -32,6 +32,8 @@ class Lexicon(msgspec.Struct, frozen=True, kw_only=True, dict=True):
     members: Mapping[str, frozenset[str]]
     """The skills that each robot has."""
     robots: tuple[str, ...]
+    hosts: Mapping[str, frozenset[str]]
+    """The robots that have each part, by the part's name."""
     zone_steps: frozenset[tuple[str, str]]
     """Contract steps that take a zone."""
     object_steps: frozenset[tuple[str, str]]
@@ -73,6 +75,9 @@ def build_lexicon(rules: Rules) -> Lexicon:
         reports=_reports(rules),
         members={r.name: frozenset(s.name for s in k.skills) for r in rules.crew.robots if (k := rules.kinds[r.kind])},
         robots=tuple(r.name for r in rules.crew.robots),
+        hosts={
+            name: frozenset(r.name for r in rules.crew.robots if rules.host_of(name, [r.name])) for name in rules.parts
+        },
         zone_steps=frozenset(_steps_using(rules, "zone", own=True)),
         object_steps=frozenset(_steps_using(rules, "object", own=False)),
         ending=tuple(

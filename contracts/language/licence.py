@@ -25,8 +25,7 @@ def licensed_values(reading: Reading, slot: Slot, rules: Rules) -> tuple[SlotVal
 
     What nobody knows is licensed verbatim where a name of this slot could stand: it closes the slot to everything else.
     """
-    del rules  # values in a reading are resolved already
-    named = [m for m in reading.wanted if _licenses(m, slot, reading)]
+    named = [m for m in reading.wanted if _licenses(m, slot, reading) and not any(v in rules.parts for v in m.values)]
     if named:
         first = Direction.FROM if slot.said_from else Direction.TO
         ranked = sorted(named, key=lambda m: m.direction is not first)
@@ -99,7 +98,9 @@ def shown(value: SlotValue, crew: Crew) -> str:
 def _licenses(mention: Mention, slot: Slot, reading: Reading) -> bool:
     if not fits(mention, slot):
         return False
-    if not slot.said_from or mention.direction is not Direction.NONE:
+    if mention.kind is MentionKind.OBJECT and mention.direction in (Direction.TO, Direction.FROM):
+        return False  # "carry the bottle to the cube": an object is no place
+    if not slot.said_from or mention.direction is not Direction.AT:
         return (mention.direction is Direction.FROM) is slot.said_from
     goals = (m for m in reading.wanted if m.direction is Direction.TO or m.kind is MentionKind.VALUE)
     return any(m is not mention for m in goals)  # "the bottle on table_a to room_a"

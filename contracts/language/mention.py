@@ -27,11 +27,12 @@ ROBOT_KINDS = (MentionKind.ROBOT, MentionKind.ROBOT_CLASS)
 
 
 class Direction(StrEnum):
-    """Whether a place was given as an origin or as a destination."""
+    """Whether a place was given as an origin, as a destination, or as where something is or shall be."""
 
     NONE = "none"
     FROM = "from"
     TO = "to"
+    AT = "at"
 
 
 class StepRef(msgspec.Struct, frozen=True):

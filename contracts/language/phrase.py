@@ -4,7 +4,7 @@ from itertools import pairwise
 
 from crew.contracts.language.lexicon import Lexicon
 from crew.contracts.language.mention import Direction, MentionKind
-from crew.contracts.language.piece import PREPOSITIONS, Piece, before, behind
+from crew.contracts.language.piece import PLACE_ROLES, PREPOSITIONS, Piece, before, behind
 from crew.contracts.language.tokens import Token
 from crew.contracts.language.words import PLACE_NOUNS, ZONE_NOUNS, Role
 from crew.contracts.plan import Zone
@@ -34,9 +34,25 @@ def directions(pieces: list[Piece], tokens: list[Token]) -> None:
             piece.direction = Direction.FROM
         elif role is Role.TO or (role is Role.NEAR and piece.near_is_at):
             piece.direction = Direction.TO
+        elif role is Role.AT:
+            piece.direction = Direction.AT
+        elif role is Role.AND and previous is not None and not piece.is_robot:
+            partner = before(pieces, pieces.index(previous), _NO_ARTICLE | {Role.FILLER})
+            if partner is not None and partner.kind is piece.kind:
+                piece.direction = partner.direction  # "to room_a and room_b"
         if piece.is_robot and role in (Role.TO, Role.AT, Role.NEAR, Role.FROM):
             piece.become_unknown(piece.first, piece.after)
             piece.name = " ".join(t.norm for t in tokens[piece.first : piece.after])
+
+
+def hosts(pieces: list[Piece], lexicon: Lexicon) -> None:
+    """`on the dog` is its tray, if the crew's only trays are the dog's."""
+    parts = {robots: name for name, robots in lexicon.hosts.items()}
+    for at, piece in enumerate(pieces):
+        previous = before(pieces, at, _NO_ARTICLE) if piece.is_robot else None
+        part = parts.get(frozenset(str(value) for value in piece.values))
+        if part is not None and previous is not None and previous.norm in ("on", "onto"):
+            piece.kind, piece.name, piece.values = MentionKind.LOCATION, part, (part,)
 
 
 def loose_ends(pieces: list[Piece], lexicon: Lexicon) -> None:
@@ -49,7 +65,9 @@ def loose_ends(pieces: list[Piece], lexicon: Lexicon) -> None:
         kind = following.kind if following is not None else None
         beside = following is not None and following.near_is_at and not sweeping
         far = piece.role is Role.NEAR and not beside
-        if far or (piece.role is Role.OVER and kind is not MentionKind.ZONE):
+        if piece.role is Role.OVER and kind is MentionKind.OBJECT and at and pieces[at - 1].is_action:
+            piece.become(Role.FILLER)  # "bring over the cube"
+        elif far or (piece.role is Role.OVER and kind is not MentionKind.ZONE):
             piece.become(Role.UNREAD)
         elif piece.role is Role.QUANTIFIER and kind is not MentionKind.ZONE:
             if following is not None and following.is_robot and piece.norm in ("all", "both", "every", "each"):
@@ -170,7 +188,13 @@ def _nested(inner: Piece, outer: Piece) -> bool:
 
 
 def _after_verb_and_article(pieces: list[Piece]) -> None:
-    """In `search the land` the second word is a thing, not a verb; in `report the coordinates` it says the same."""
+    """In `search the land` the second word is a thing, not a verb; in `report the coordinates` it says the same.
+
+    So it is after a preposition, in `in your hand`.
+    """
+    for place, owner, piece in zip(pieces, pieces[1:], pieces[2:], strict=False):
+        if place.role in PLACE_ROLES and owner.role is Role.DETERMINER and piece.is_action:
+            piece.become_unknown(piece.first, piece.after)
     for verb, article, piece in zip(pieces, pieces[1:], pieces[2:], strict=False):
         if verb.is_action and article.role is Role.DETERMINER and piece.is_action and article.norm in ("the", "a"):
             if set(verb.means) & set(piece.means):

@@ -3,8 +3,8 @@
 from collections.abc import Iterator
 
 from crew.contracts.language.lexicon import Lexicon
-from crew.contracts.language.mention import Ambiguity, Mention, MentionKind, Reading, Unread
-from crew.contracts.language.phrase import directions, loose_ends, noun_phrases
+from crew.contracts.language.mention import Ambiguity, Direction, Mention, MentionKind, Reading, Unread
+from crew.contracts.language.phrase import directions, hosts, loose_ends, noun_phrases
 from crew.contracts.language.piece import Piece, before, behind
 from crew.contracts.language.reference import governors, orders, participles, place_pronouns, pronouns
 from crew.contracts.language.scan import Scanner
@@ -30,6 +30,7 @@ def read_request(text: str, lexicon: Lexicon) -> Reading:
     _first(pieces)
     participles(pieces)
     place_pronouns(pieces)
+    hosts(pieces, lexicon)
     directions(pieces, tokens)
     doubts = polarities(pieces, tokens)
     if any(p.role is Role.PRONOUN for p in pieces):
@@ -147,7 +148,7 @@ def _clauses(reading: Reading) -> Iterator[str]:
 
 
 def _shown(mention: Mention) -> str:
-    prefix = "" if mention.direction.value == "none" else f"{mention.direction.value} "
+    prefix = f"{mention.direction} " if mention.direction in (Direction.FROM, Direction.TO) else ""
     return prefix + mention.name
 
 

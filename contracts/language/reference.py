@@ -13,6 +13,7 @@ from crew.contracts.language.words import PLACE_NOUNS, Role
 _PLACES = (MentionKind.VALUE, MentionKind.LOCATION, MentionKind.POINT)
 _ROBOTS = (MentionKind.ROBOT, MentionKind.ROBOT_CLASS)
 _PEOPLE = frozenset(("him", "her", "his"))
+_WISHES = ("want", "need", "like")
 _ORDERING = frozenset((Role.THEN, Role.AFTER, Role.FIRST))
 _PASSED = SOFT | {Role.BE, Role.TO}
 
@@ -113,7 +114,7 @@ def _wanted_done(pieces: list[Piece], at: int) -> bool:
     if at == 0 or not pieces[at - 1].is_entity:
         return False
     verb = before(pieces, at - 1, frozenset((Role.DETERMINER, Role.QUANTIFIER)))
-    return verb is not None and verb.role is Role.FILLER and verb.norm.endswith(("want", "need", "like"))
+    return verb is not None and (verb.role is Role.FILLER or verb.is_action) and verb.norm.endswith(_WISHES)
 
 
 def _in_time_clause(pieces: list[Piece], at: int) -> bool:

@@ -171,6 +171,9 @@ class Scanner:
         token = self.tokens[at]
         if token.norm == "out" and self.pieces and self.pieces[-1].is_action:
             return Piece(at, at + 1, Role.FILLER)  # "find out", "check out"
+        name = self._name(self._past(at + 1, tuple(_ARTICLES)))
+        if token.norm == "off" and name is not None and name.kind is MentionKind.LOCATION:
+            return Piece(at, at + 1, Role.FROM, norm=token.norm)  # "take the cube off the table"
         unread = is_numeral(self.tokens, at) or token.norm in _NEVER_NAMES or token.norm.endswith("ly")
         return Piece(at, at + 1, Role.UNREAD if unread else Role.WORD, norm=token.norm, possessive=token.possessive)
 

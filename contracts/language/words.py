@@ -58,7 +58,8 @@ FUNCTION_WORDS: dict[Role, tuple[str, ...]] = {
         "your task is to", "your job is to", "your mission is to", "the task is to", "you have to", "you need to",
         "it would be nice to", "it would be great to", "it would be nice if you could", "if you could",
         "it would be great if you could", "has to", "needs to", "have to", "need to", "the job is to", "take care to",
-        "be so kind", "be so kind as",
+        "be so kind", "be so kind as", "be so kind and", "could someone", "could somebody", "can someone",
+        "can somebody", "would someone", "would somebody",
     ),
     Role.MODAL: ("should", "shall", "must", "can", "could", "would", "ought"),
     Role.BE: ("be", "been", "is", "are", "has", "have", "has been", "have been", "get", "gets"),
@@ -124,7 +125,7 @@ ROLE_ORDER: tuple[Role, ...] = (Role.LIGHT, Role.CAUSE, Role.BE)
 
 REQUESTER = "requester"
 """The run-time value that the speaker's own words name."""
-SELF_WORDS: tuple[str, ...] = ("me", "here", "myself", "us")
+SELF_WORDS: tuple[str, ...] = ("me", "here", "over here", "right here", "myself", "us")
 
 ROBOT_WORDS: tuple[str, ...] = ("robot", "vehicle", "machine")
 """Class words that every crew has: any of its robots."""

@@ -40,6 +40,8 @@ def _slot(slot: Slot) -> str:
     facts = [f"{slot.name}: {listed([*types, *slot.values], word='or')}"]
     if slot.said_from:
         facts.append("where the request says it comes from")
+    if slot.beyond:
+        facts.append(f"out of reach of {slot.beyond}")
     if slot.default is not None:
         facts.append(f"else {shown(slot.default) if isinstance(slot.default, str | float) else slot.default}")
     if slot.free:

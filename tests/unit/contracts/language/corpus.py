@@ -29,6 +29,14 @@ class Request(msgspec.Struct, frozen=True, kw_only=True):
     slots: Mapping[str, Any] = {}
     code: str | list[str] = []
     unread: list[str] = []
+    missed: bool = False
+    """Could be accepted, but is not read yet."""
+    near: bool | None = None
+    """Whether the person who asks is in reach, as far as the planner knows."""
+
+    @property
+    def state(self) -> PlannerState:
+        return msgspec.structs.replace(ON_GROUND, requester_near=self.near)
 
     @property
     def codes(self) -> list[str]:
@@ -85,7 +93,7 @@ def value_of(written: object, rules: Rules) -> SlotValue:
 
 def mistake(request: Request, rules: Rules) -> str:
     """What is wrong with the outcome of a request; empty if it is right."""
-    judged = judge(request.text, rules)
+    judged = judge(request.text, rules, request.state)
     if judged.outcome != request.outcome:
         return f"{judged.outcome} {judged.code} ({judged.why})"
     if request.codes and judged.code not in request.codes:
