@@ -16,6 +16,7 @@ class OrchestratorSpec(msgspec.Struct, frozen=True, kw_only=True):
     epoch: int
     planner: str
     simulated: bool
+    operator_key: bytes
 
 
 class RobotActorSpec(msgspec.Struct, frozen=True, kw_only=True):
@@ -27,6 +28,7 @@ class RobotActorSpec(msgspec.Struct, frozen=True, kw_only=True):
     connection: str
     simulated: bool
     operator_key: bytes
+    orchestrator_key: bytes
 
 
 class PlannerSpec(msgspec.Struct, frozen=True, kw_only=True):

@@ -63,10 +63,16 @@ async def within(clock: Clock, seconds: float, awaitable: Awaitable[T]) -> T:
 
 
 class WallClock:
-    """Mission time on hardware: the machine's monotonic clock."""
+    """Mission time on hardware: the machine's date when this was made, then monotonic.
+
+    Machines agree as far as their dates do; setting a date while a crew runs makes nothing jump.
+    """
+
+    def __init__(self) -> None:
+        self._start_ns = time.time_ns() - time.monotonic_ns()
 
     def now_ns(self) -> int:
-        return time.monotonic_ns()
+        return self._start_ns + time.monotonic_ns()
 
     async def sleep(self, seconds: float) -> None:
         await asyncio.sleep(seconds)
@@ -80,7 +86,10 @@ class WallClock:
 
 
 class Wall(WallClock):
-    """Wall time, for what the design keeps on it: liveliness, heartbeats, stop, network, models."""
+    """Wall time, for what the design keeps on it: liveliness, heartbeats, stop, network. Of this machine only."""
+
+    def now_ns(self) -> int:
+        return time.monotonic_ns()
 
     async def race(self, awaitable: Awaitable[object], seconds: float) -> bool:
         """Await, for at most `seconds`; whether it ended in time."""

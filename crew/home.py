@@ -34,7 +34,8 @@ class Running(msgspec.Struct, frozen=True, kw_only=True):
 class Home:
     """The folder at `path`.
 
-    It holds `keys/`, `certificates/<crew>/`, `epochs/<crew>`, `heads/<run>.json` and `running/<crew>.json`.
+    It holds `keys/`, `certificates/<crew>/`, `epochs/<crew>`, `stops/<crew>.json`, `heads/<run>.json` and
+    `running/<crew>.json`.
     """
 
     def __init__(self, path: Path) -> None:
@@ -60,6 +61,10 @@ class Home:
     def head(self, run_id: str) -> Path:
         """Where the signed head of a run's journal is kept outside the run's folder."""
         return self._folder("heads") / f"{checked_chunk(run_id, 'run id')}.json"
+
+    def stop(self, crew: str) -> Path:
+        """Where the stop that holds a crew is kept, so that it outlives every process."""
+        return self._folder("stops") / f"{checked_chunk(crew, 'crew name')}.json"
 
     def epoch(self, crew: str) -> int:
         """The crew's last epoch; 0 before its first."""

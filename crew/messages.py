@@ -42,6 +42,8 @@ class RobotState(Message, frozen=True, kw_only=True):
     """The newest orchestrator's epoch that it has heard."""
     dropped: int = 0
     """Messages to it that it dropped: unreadable, too late, or too many at once."""
+    refused_permits: int = 0
+    """Commands that it refused because their permit is not the orchestrator's, or is spent."""
     fluents: Mapping[str, FluentValue] = {}
     stamps_ns: Mapping[str, int] = {}
 
@@ -55,7 +57,10 @@ class RobotEvent(Message, frozen=True, kw_only=True):
     boot_id: str
     at_ns: int
     what: str
-    """`accepted`, `refused`, `succeeded`, `failed`, `cancelled`; or of the robot: `stopped`, `released`, `ready`..."""
+    """`accepted`, `refused`, `succeeded`, `failed`, `cancelled`; or of the robot: `stopped`, `released`, `ready`...
+
+    `permit_refused` is of the robot: a command that nobody may have sent says nothing about a mission.
+    """
     mission: str = ""
     sequence: int = 0
     code: str = ""
@@ -87,6 +92,8 @@ class Dispatch(Message, frozen=True, kw_only=True):
     places: Mapping[str, Point] = {}
     epoch: int
     lease: str
+    fence: int = 0
+    """The lease's number. It grows with every grant, so that a command of an earlier holder is known as old."""
     boot_id: str
     issued_ns: int
     expires_ns: int
@@ -95,8 +102,9 @@ class Dispatch(Message, frozen=True, kw_only=True):
     contract_digest: str
     request_id: str = ""
     approval: str = ""
+    """What a person approved, if the step wants it: the digest that the answer was bound to."""
     permit: bytes = b""
-    """The orchestrator's signature over the rest; verified by the robot once the message lock is in place."""
+    """The orchestrator's signature over the rest (`crew.permit`)."""
 
 
 class CancelSkill(Message, frozen=True, kw_only=True):
@@ -147,13 +155,19 @@ class Reset(Message, frozen=True, kw_only=True):
 
 
 class Heartbeat(Message, frozen=True, kw_only=True):
-    """Proof that the orchestrator's loop turns and its journal commits. Sent on wall time."""
+    """Proof that the orchestrator's loop turns and its journal commits. Sent on wall time, with a permit.
+
+    It also holds the stop up: `stop` numbers the newest one, `stopped` names who is to be latched by it.
+    """
 
     schema: ClassVar[str] = "crew.heartbeat"
-    version: ClassVar[int] = 1
+    version: ClassVar[int] = 2
     name: str
     epoch: int
     count: int
+    stop: int = 0
+    stopped: tuple[str, ...] = ()
+    permit: bytes = b""
 
 
 class Intake(Message, frozen=True, kw_only=True):
@@ -280,6 +294,20 @@ class MissionStatus(Message, frozen=True, kw_only=True):
     token: str = ""
 
 
+class StopStatus(Message, frozen=True, kw_only=True):
+    """The newest stop, by whom, and what its robots have confirmed since. Who is not `still` may be moving."""
+
+    schema: ClassVar[str] = "crew.stop_status"
+    version: ClassVar[int] = 1
+    number: int
+    by: str
+    reason: str
+    at_wall_ns: int
+    latched: tuple[str, ...]
+    still: tuple[str, ...]
+    treat_as_moving: tuple[str, ...]
+
+
 class CrewStatus(Message, frozen=True, kw_only=True):
     """The answer to a query on the status key."""
 
@@ -293,7 +321,9 @@ class CrewStatus(Message, frozen=True, kw_only=True):
     robots: tuple[RobotStatus, ...]
     missions: tuple[MissionStatus, ...]
     dropped: Mapping[str, int] = {}
-    """Messages that were refused as unreadable, by reason."""
+    """Messages that were refused: as unreadable by reason, and commands that robots refused for their permit."""
+    stop: StopStatus | None = None
+    """The stop that is in force, if one is."""
 
 
 # --- simulation

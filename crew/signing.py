@@ -39,9 +39,14 @@ def verify(public: bytes, purpose: str, message: bytes, signature: bytes) -> boo
     return True
 
 
+def key_id(public: bytes) -> bytes:
+    """Eight bytes that tell a public key from others; `fingerprint` shows the same to people."""
+    return hashlib.sha256(public).digest()[:8]
+
+
 def fingerprint(public: bytes) -> str:
     """A public key as a person compares it: 16 hexadecimal digits in groups of four."""
-    digits = hashlib.sha256(public).hexdigest()[:16]
+    digits = key_id(public).hex()
     return "-".join(digits[start : start + 4] for start in range(0, 16, 4))
 
 

@@ -7,39 +7,37 @@ from typing import Any
 
 from crew.actors.orchestrator.announcer import Announcer
 from crew.actors.orchestrator.flight import Dispatcher
+from crew.actors.orchestrator.hold import StopHold
 from crew.actors.orchestrator.lease import LeaseTable
 from crew.actors.orchestrator.ledger import Ledger
 from crew.actors.orchestrator.planning import PlannerDesk
 from crew.actors.orchestrator.shell import MissionShell, is_idle
+from crew.actors.orchestrator.watch import CrewWatch
 from crew.actors.orchestrator.world import WorldFold
-from crew.bus.port import Body, Bus, Qos, Sample
-from crew.clock import WALL, Clock
+from crew.bus.port import Body, Bus, Sample
+from crew.clock import Clock
 from crew.contracts.decision import Authorizer
 from crew.contracts.language.lexicon import build_lexicon
 from crew.contracts.language.reading import read_request
 from crew.contracts.mission import event as ev
 from crew.contracts.mission_state import MissionState
 from crew.contracts.site import Rules
-from crew.errors import CrewError
 from crew.keys import Keys
 from crew.mailbox import Events, KeepLatest, Letter, Mailbox, letters
 from crew.messages import (
     Answer,
     CancelMission,
     CrewStatus,
-    Heartbeat,
     Intake,
     MissionStatus,
     RobotCard,
     RobotEvent,
     RobotState,
     RobotValue,
-    Stop,
 )
-from crew.wire import Message, decode
+from crew.signing import SigningKey
+from crew.wire import Message
 
-HEARTBEAT_EVERY_S = 0.2
-WATCH_EVERY_S = 0.2
 MAX_OPEN = 16
 EVENTS_CAPACITY = 4096
 
@@ -58,17 +56,19 @@ class Orchestrator:
         *,
         epoch: int,
         run: str,
+        key: SigningKey,
+        operator_key: bytes,
+        hold: StopHold,
     ) -> None:
+        self._operator_key = operator_key
         self._bus, self._keys, self._rules, self._clock = bus, keys, rules, clock
         self._ledger, self._epoch, self._run = ledger, epoch, run
         self._lexicon = build_lexicon(rules)
-        self._world, self._leases = WorldFold(rules), LeaseTable()
+        self._world, self._leases = WorldFold(rules, hold), LeaseTable()
         self._announcer = Announcer(bus, keys, rules, clock)
         self._tasks: dict[str, set[asyncio.Task[None]]] = {}
-        self._lost: dict[str, str] = {}
         self._boxes: list[Mailbox[Any]] = []
         self._lost_messages: Counter[str] = Counter()
-        self._stops: asyncio.Queue[str] = asyncio.Queue()
         self._group: asyncio.TaskGroup
         self.shell = MissionShell(
             rules,
@@ -84,8 +84,10 @@ class Orchestrator:
         )
         self._desk = PlannerDesk(bus, keys, clock, rules, self._world, self._leases, self.shell.feed, self._spawn)
         self.shell.dispatcher = Dispatcher(
-            bus, keys, clock, ledger, self._world, rules, epoch, self.shell.feed, self._spawn
+            bus, keys, clock, ledger, self._world, self._leases, rules, epoch, key, self.shell.feed, self._spawn
         )
+
+        self._watch = CrewWatch(bus, keys, rules, self._world, ledger, self.shell, epoch, key)
 
     @property
     def idle(self) -> bool:
@@ -95,7 +97,6 @@ class Orchestrator:
     async def run(self) -> None:
         """Serve until cancelled."""
         keys, bus = self._keys, self._bus
-        loop = asyncio.get_running_loop()
         states: KeepLatest[Letter[RobotState]] = KeepLatest(letters(RobotState))
         cards: KeepLatest[Letter[RobotCard]] = KeepLatest(letters(RobotCard))
         values = self._events(RobotValue)
@@ -107,7 +108,6 @@ class Orchestrator:
         bus.subscribe(keys.robot_events, events)
         for key in (keys.intake, keys.mission_confirms, keys.mission_cancels):
             bus.subscribe(key, people)
-        bus.on_sample(keys.stop, lambda sample: _hand_over(loop, self._stops, sample))
         bus.watch_liveliness(keys.all_alive, self._on_liveliness)
         bus.queryable(keys.status, self._status)
         self._boxes += [states, cards, self._desk.box]
@@ -117,10 +117,8 @@ class Orchestrator:
             self._group.create_task(self._hear_values(values))
             self._group.create_task(self._hear_events(events))
             self._group.create_task(self._hear_people(people))
-            self._group.create_task(self._hear_stops())
             self._group.create_task(self._desk.run())
-            self._group.create_task(self._watch_robots())
-            self._group.create_task(self._beat())
+            self._group.create_task(self._watch.run())
 
     # --- hearing
 
@@ -128,7 +126,7 @@ class Orchestrator:
         async for letter in box:
             if self._own(letter, letter.message.robot):
                 self._world.take_state(letter.message, self._clock.now_ns())
-                self._lift_stop()
+                self._watch.lift_stop()
 
     async def _hear_cards(self, box: KeepLatest[Letter[RobotCard]]) -> None:
         async for letter in box:
@@ -179,13 +177,6 @@ class Orchestrator:
                 case CancelMission() as cancel:
                     self.shell.cancel(mission, by=cancel.by or "a person")
 
-    async def _hear_stops(self) -> None:
-        while True:
-            by = await self._stops.get()
-            self._world.stop()
-            self._ledger.note("stop", f"stop by {by}")
-            self.shell.stop(by)
-
     def _take_request(self, intake: Intake) -> None:
         if intake.mission in self.shell.missions:
             return
@@ -214,34 +205,6 @@ class Orchestrator:
 
     # --- telling
 
-    async def _beat(self) -> None:
-        count = 0
-        token = self._bus.token(self._keys.alive("orchestrator"))
-        publisher = self._bus.publisher(self._keys.heartbeat(), qos=Qos.EVENT)
-        try:
-            while True:
-                count += 1
-                publisher.put(Heartbeat(name="orchestrator", epoch=self._epoch, count=count))
-                await WALL.sleep(HEARTBEAT_EVERY_S)
-        finally:
-            token.close()
-
-    async def _watch_robots(self) -> None:
-        """Notice robots that are lost, and a stop that has been released everywhere."""
-        while True:
-            for spec in self._rules.crew.robots:
-                why = self._world.lost(spec.name)
-                if why and not self._lost.get(spec.name):
-                    self.shell.dispatcher.lose(spec.name, why)
-                self._lost[spec.name] = why
-            self._lift_stop()
-            await WALL.sleep(WATCH_EVERY_S)
-
-    def _lift_stop(self) -> None:
-        if self._world.stopped and self._world.all_released():
-            self._world.stopped = False
-            self._ledger.note("released", "no robot is stopped any more")
-
     async def _status(self, sample: Sample) -> Body:
         dropped: Counter[str] = Counter(self._lost_messages)
         for box in self._boxes:
@@ -256,6 +219,7 @@ class Orchestrator:
             robots=self._world.status(self._leases.held),
             missions=tuple(_mission_status(m) for m in self.shell.missions.values()),
             dropped=dict(dropped),
+            stop=self._world.hold.status(self._world.still()) if self._world.hold.held else None,
         )
 
     # --- tasks
@@ -293,16 +257,3 @@ def _mission_status(mission: MissionState) -> MissionStatus:
         question="" if question is None else question.text,
         token="" if question is None else question.token,
     )
-
-
-def _hand_over(loop: asyncio.AbstractEventLoop, stops: asyncio.Queue[str], sample: Sample) -> None:
-    """From the bus's thread to the loop."""
-    if not loop.is_closed():
-        loop.call_soon_threadsafe(stops.put_nowait, _who(sample))
-
-
-def _who(sample: Sample) -> str:
-    try:
-        return decode(Stop, sample.payload, sample.encoding).by
-    except CrewError:
-        return "an unreadable stop message"

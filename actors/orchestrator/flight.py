@@ -5,6 +5,7 @@ from collections.abc import Callable, Coroutine
 from typing import Any
 
 from crew.actors.orchestrator.judge import Judge
+from crew.actors.orchestrator.lease import LeaseTable
 from crew.actors.orchestrator.ledger import Ledger
 from crew.actors.orchestrator.world import WorldFold
 from crew.bus.port import Bus, Qos
@@ -18,6 +19,8 @@ from crew.errors import JournalError
 from crew.journal import Ticket
 from crew.keys import Keys
 from crew.messages import CancelSkill, Dispatch, RobotEvent
+from crew.permit import permit
+from crew.signing import SigningKey
 
 ANSWER_S = 2.0
 """Wall time for a robot to say that it took a dispatch; silence is an unknown outcome."""
@@ -51,14 +54,16 @@ class Dispatcher:
         clock: Clock,
         ledger: Ledger,
         world: WorldFold,
+        leases: LeaseTable,
         rules: Rules,
         epoch: int,
+        key: SigningKey,
         feed: Feed,
         spawn: Spawn,
     ) -> None:
         self._bus, self._keys, self._clock = bus, keys, clock
-        self._ledger, self._world, self._rules = ledger, world, rules
-        self._epoch, self._feed, self._spawn = epoch, feed, spawn
+        self._ledger, self._world, self._leases, self._rules = ledger, world, leases, rules
+        self._epoch, self._key, self._feed, self._spawn = epoch, key, feed, spawn
         self._flights: dict[tuple[str, int], Flight] = {}
 
     def send(self, mission: MissionState, effect: ev.Send) -> None:
@@ -82,7 +87,8 @@ class Dispatcher:
             epoch=self._epoch,
             boot_id=card.boot_id,
         )
-        self._bus.put(self._keys.act_cancel(effect.robot), message, qos=Qos.ACTUATION)
+        signed = permit(message, self._keys.crew, self._key)
+        self._bus.put(self._keys.act_cancel(effect.robot), signed, qos=Qos.ACTUATION)
         self._spawn(mission.id, self._await_cancelled(flight))
 
     def hear(self, event: RobotEvent) -> None:
@@ -98,11 +104,11 @@ class Dispatcher:
         if event.what in ("succeeded", "failed", "cancelled", "refused"):
             self._end(flight, event.what, event.code, event.detail)
 
-    def lose(self, robot: str, why: str) -> None:
+    def lose(self, robot: str, why: str, code: str = "robot_lost") -> None:
         """A robot can't be reached: what it was doing has an unknown outcome."""
         for flight in list(self._flights.values()):
             if flight.dispatch.robot == robot:
-                self._end(flight, "unknown", "robot_lost", why)
+                self._end(flight, "unknown", code, why)
 
     def forget(self, mission: str) -> None:
         """A mission has ended."""
@@ -171,7 +177,7 @@ class Dispatcher:
         assert found is not None
         issued_ns = found[1].dispatched_ns
         contract = self._rules.contracts[mission.instance.contract]
-        return Dispatch(
+        unsigned = Dispatch(
             mission=mission.id,
             step=effect.step,
             purpose="safe" if effect.step.startswith("safe:") else "execute",
@@ -182,6 +188,7 @@ class Dispatcher:
             places=effect.places,
             epoch=self._epoch,
             lease=mission.id,
+            fence=self._leases.number(mission.id),
             boot_id=self._world.cards[effect.call.robot].boot_id,
             issued_ns=issued_ns,
             expires_ns=issued_ns + seconds_ns(EXPIRES_S),
@@ -190,3 +197,4 @@ class Dispatcher:
             contract_digest=digest(contract),
             request_id=mission.request_id,
         )
+        return permit(unsigned, self._keys.crew, self._key)

@@ -9,6 +9,8 @@ class LeaseTable:
     def __init__(self) -> None:
         self._held: dict[str, str] = {}
         self._waiting: dict[str, tuple[str, ...]] = {}
+        self._granted = 0
+        self._numbers: dict[str, int] = {}
 
     @property
     def held(self) -> Mapping[str, str]:
@@ -29,10 +31,16 @@ class LeaseTable:
             if free:
                 self._held.update(dict.fromkeys(robots, mission))
                 del self._waiting[mission]
+                self._granted += 1
+                self._numbers[mission] = self._granted
                 granted.append(mission)
             else:
                 wanted.update(robots)
         return granted
+
+    def number(self, mission: str) -> int:
+        """The number of a mission's lease, greater than that of every lease granted before; 0 if it has none."""
+        return self._numbers.get(mission, 0)
 
     def holders(self, robots: Sequence[str]) -> list[str]:
         """Missions that hold any of these robots."""
@@ -41,4 +49,5 @@ class LeaseTable:
     def release(self, mission: str) -> None:
         """Give back everything that a mission holds or waits for."""
         self._waiting.pop(mission, None)
+        self._numbers.pop(mission, None)
         self._held = {robot: holder for robot, holder in self._held.items() if holder != mission}

@@ -7,6 +7,7 @@ from pathlib import Path
 from msgspec.structs import replace
 
 from crew.actors.orchestrator.actor import Orchestrator
+from crew.actors.orchestrator.hold import StopHold
 from crew.actors.orchestrator.ledger import Ledger
 from crew.actors.specs import OrchestratorSpec
 from crew.bus.port import Bus
@@ -24,7 +25,8 @@ from crew.process import ChildContext, run_child
 from crew.records import RunRecord
 from crew.signing import load_or_create_key
 
-JOURNAL_KEY = "orchestrator"
+ORCHESTRATOR_KEY = "orchestrator"
+"""Signs the journal's head and every permit; each signature is bound to its purpose."""
 
 
 async def main(context: ChildContext) -> None:
@@ -40,7 +42,7 @@ async def serve(spec: OrchestratorSpec, rules: Rules, bus: Bus, context: ChildCo
     home, run = Home(Path(spec.home)), Path(spec.run_folder).name
     keys = Keys(rules.crew.name)
     loop, failed = asyncio.get_running_loop(), asyncio.Event()
-    key = load_or_create_key(home.keys, JOURNAL_KEY)
+    key = load_or_create_key(home.keys, ORCHESTRATOR_KEY)
 
     def journal_failed(error: JournalError) -> None:
         loop.call_soon_threadsafe(failed.set)
@@ -55,7 +57,19 @@ async def serve(spec: OrchestratorSpec, rules: Rules, bus: Bus, context: ChildCo
     ) as journal:
         ledger = Ledger(journal, clock)
         ledger.write(run_record(spec, rules, run))
-        actor = Orchestrator(bus, keys, rules, clock, ledger, Gate(), epoch=spec.epoch, run=run)
+        actor = Orchestrator(
+            bus,
+            keys,
+            rules,
+            clock,
+            ledger,
+            Gate(),
+            epoch=spec.epoch,
+            run=run,
+            key=key,
+            operator_key=spec.operator_key,
+            hold=StopHold((r.name for r in rules.crew.robots), home.stop(rules.crew.name)),
+        )
         async with asyncio.TaskGroup() as group:
             group.create_task(_end_on(failed, journal))
             group.create_task(actor.run())

@@ -2,6 +2,8 @@
 
 from collections.abc import Mapping
 
+from crew.actors.orchestrator.hold import StopHold
+from crew.actors.orchestrator.identity import Identities
 from crew.clock import WALL, seconds_ns
 from crew.contracts.gate.guard import FUTURE_NS
 from crew.contracts.site import Rules
@@ -16,31 +18,36 @@ SILENT_S = 3.0
 class WorldFold:
     """The latest word of every robot, stamped with mission time."""
 
-    def __init__(self, rules: Rules) -> None:
+    def __init__(self, rules: Rules, hold: StopHold | None = None) -> None:
         self._rules = rules
         self._names = frozenset(r.name for r in rules.crew.robots)
+        self.hold = hold or StopHold(r.name for r in rules.crew.robots)
         self.cards: dict[str, RobotCard] = {}
-        self.stopped = False
+        self.stopped = bool(self.hold.held)
+        self.bus_lost = False
         self._states: dict[str, StateMessage] = {}
         self._received: dict[str, tuple[int, int]] = {}
         self._values: dict[str, StampedValue] = {}
         self._gone: dict[str, str] = {}
         self._ended: dict[str, str] = {}
-        self._unlatched: set[str] = set()
+        self._identities = Identities()
 
     def knows(self, robot: str) -> bool:
         """Whether the crew has a robot of this name."""
         return robot in self._names
 
     def take_card(self, card: RobotCard) -> bool:
-        """Remember who a robot says it is; whether it has rebooted since."""
+        """Remember who a robot says it is; whether it has rebooted since. A conflicting card only casts doubt."""
         if not self.knows(card.robot):
             return False
         known = self.cards.get(card.robot)
+        if self._identities.conflicting(known, card):
+            return False
         self.cards[card.robot] = card
         rebooted = known is not None and known.boot_id != card.boot_id
         if rebooted:
             self._states.pop(card.robot, None)
+            self.hold.rebooted(card.robot)
         return rebooted
 
     def take_state(self, state: StateMessage, now_ns: int) -> None:
@@ -53,8 +60,7 @@ class WorldFold:
         older = known is not None and state.at_ns < known.at_ns <= now_ns + FUTURE_NS
         if card is None or card.boot_id != state.boot_id or older:
             return
-        if state.stopped:
-            self._unlatched.discard(state.robot)
+        self.hold.hear_state(state)
         self._states[state.robot] = state
         self._received[state.robot] = (now_ns, WALL.now_ns())
 
@@ -73,7 +79,7 @@ class WorldFold:
         if card is None or card.boot_id != event.boot_id:
             return
         if event.what in ("stopped", "released"):
-            self._unlatched.discard(event.robot)
+            self.hold.confirm(event.robot)
         if event.what in ("succeeded", "failed", "cancelled", "refused"):
             self._ended[event.robot] = f"{event.mission}/{event.sequence}"
 
@@ -85,7 +91,11 @@ class WorldFold:
             self._gone[robot] = "lost: its process or its link is gone"
 
     def lost(self, robot: str) -> str:
-        """Why a robot can't be reached, or empty: its token is gone, or its state has fallen silent."""
+        """Why a robot can't be reached or believed, or empty. Losing the bus is not losing a robot."""
+        if self.bus_lost:
+            return "not heard: the bus is lost (the router does not answer)"
+        if conflict := self._identities.conflict(robot):
+            return conflict
         if robot in self._gone:
             return self._gone[robot]
         received = self._received.get(robot)
@@ -94,23 +104,29 @@ class WorldFold:
         silent_ns = WALL.now_ns() - received[1]
         return f"frozen: no state for {silent_ns / 1e9:.1f} s" if silent_ns > seconds_ns(SILENT_S) else ""
 
-    def stop(self) -> None:
+    def stop(self, by: str, reason: str = "") -> None:
         """A stop is in force until every robot that is heard was seen latched, and is released."""
         self.stopped = True
-        self._unlatched = set(self._names)
+        self.hold.stop(by, reason)
 
     def all_released(self) -> bool:
-        """Whether every robot that is heard has latched since the stop, and none is latched now."""
+        """Whether every robot that is heard has latched since the stop, and none is latched now. Silence is no word."""
         heard = [name for name in self._states if not self.lost(name)]
-        return not any(self._states[name].stopped or name in self._unlatched for name in heard)
+        return bool(heard) and not any(self._states[name].stopped or name in self.hold.held for name in heard)
+
+    def silent_on_stop(self) -> list[str]:
+        """Robots that are there and have not said since the stop that they are latched."""
+        return [name for name in self.hold.unconfirmed if not self.lost(name)]
+
+    def still(self) -> list[str]:
+        """Robots that are heard and say that they stand still."""
+        return sorted(name for name, state in self._states.items() if state.still and not self.lost(name))
 
     def dropped(self) -> dict[str, int]:
-        """How many messages each robot says that it dropped; robots that dropped none are left out."""
-        return {f"by_{name}": s.dropped for name, s in self._states.items() if s.dropped}
-
-    def not_still(self) -> list[str]:
-        """Robots that have not confirmed standing still: treat them as still moving."""
-        return [n for n in sorted(self._names) if self.lost(n) or not self._states[n].still]
+        """How many messages, and commands for their permit, each robot says that it refused; none are left out."""
+        dropped = {f"by_{name}": s.dropped for name, s in self._states.items() if s.dropped}
+        permits = {f"permits_{name}": s.refused_permits for name, s in self._states.items() if s.refused_permits}
+        return {**dropped, **permits}
 
     def snapshot(self, leases: Mapping[str, str]) -> Snapshot:
         """The world now, for the gate."""

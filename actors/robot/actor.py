@@ -49,6 +49,7 @@ class RobotActor:
         adapter: Adapter,
         clock: Clock,
         operator_key: bytes,
+        orchestrator_key: bytes,
         *,
         second_check: bool = True,
     ) -> None:
@@ -57,7 +58,7 @@ class RobotActor:
         self.name = spec.name
         self.kind: Kind = kind
         self.boot_id = secrets.token_hex(8)
-        self.admission = Admission(spec.name, self.boot_id, rules, second_check=second_check)
+        self.admission = Admission(spec.name, self.boot_id, rules, orchestrator_key, second_check=second_check)
         self.running = ""
         self._bus, self._keys, self._rules = bus, keys, rules
         self._adapter, self._clock = adapter, clock
@@ -68,7 +69,7 @@ class RobotActor:
         self._problem = "connecting to the vehicle"
         self.report = Reporter(bus, keys, spec, self, adapter, clock)
         self._stop = StopSwitch(bus, keys, self, adapter, operator_key)
-        self._watch = OrchestratorWatch(bus, keys, self)
+        self._watch = OrchestratorWatch(bus, keys, self, self._stop, orchestrator_key)
         self._commands: Commands[Letter[Message]] = Commands(
             letters(Dispatch, CancelSkill),
             capacity=COMMAND_CAPACITY,
@@ -93,7 +94,7 @@ class RobotActor:
     @property
     def unavailable(self) -> str:
         """Empty if the robot can take a skill, otherwise the reason in a few words."""
-        return self._problem or self._adapter.health()
+        return self._problem or self._watch.problem or self._adapter.health()
 
     @property
     def dropped(self) -> int:
@@ -151,6 +152,7 @@ class RobotActor:
                 await WALL.sleep(CONNECT_RETRY_S)
                 continue
             self._problem = ""
+            self._stop.again()
             self.report.event("ready")
             self.report.state()
             return
@@ -169,9 +171,9 @@ class RobotActor:
             dispatch, self._clock.now_ns(), latched=self._adapter.latched, running=self.running
         )
         if refused is None and self.unavailable:
-            refused = Refused("robot_unavailable", self.unavailable)
+            refused = Refused("robot_unavailable", self.unavailable, rightful=True)
         if refused is not None:
-            self.report.of(dispatch, "refused", refused.code, refused.detail)
+            self._say_refused(dispatch, refused)
             return
         self.running = f"{dispatch.mission}/{dispatch.sequence}"
         self._skill = self.kind.skill(dispatch.skill)
@@ -179,9 +181,22 @@ class RobotActor:
         self._begun, self._ending = False, ""
         self._task = group.create_task(self._carry_out(dispatch))
 
+    def _say_refused(self, dispatch: Dispatch, refused: Refused) -> None:
+        """Answer the orchestrator's own dispatch; tell operators of any other, which is no word about a mission."""
+        if refused.rightful:
+            self.report.of(dispatch, "refused", refused.code, refused.detail)
+        else:
+            self._say_permit_refused(dispatch, dispatch.skill, refused)
+
+    def _say_permit_refused(self, command: Dispatch | CancelSkill, what: str, refused: Refused) -> None:
+        detail = f"{what} {command.sequence} of {command.mission} in epoch {command.epoch}: {refused.detail}"
+        self.report.event("permit_refused", code=refused.code, detail=detail)
+
     def _cancel(self, cancel: CancelSkill) -> None:
-        running = self.running == f"{cancel.mission}/{cancel.sequence}"
-        if self.admission.concerns(cancel) and running:
+        refused = self.admission.admit_cancel(cancel)
+        if refused is not None:
+            self._say_permit_refused(cancel, "cancel", refused)
+        elif self.running == f"{cancel.mission}/{cancel.sequence}":
             self._end_running("cancelled")
 
     def _end_running(self, code: str) -> None:

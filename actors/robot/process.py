@@ -34,7 +34,7 @@ async def serve(spec: RobotActorSpec, rules: Rules, bus: Bus, context: ChildCont
     keys = Keys(rules.crew.name)
     clock = SimClock() if spec.simulated else WallClock()
     adapter = make_adapter(robot, rules, spec.connection, clock)
-    actor = RobotActor(bus, keys, robot, rules, adapter, clock, spec.operator_key)
+    actor = RobotActor(bus, keys, robot, rules, adapter, clock, spec.operator_key, spec.orchestrator_key)
     async with asyncio.TaskGroup() as group:
         group.create_task(actor.run())
         if isinstance(clock, SimClock):

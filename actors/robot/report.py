@@ -65,6 +65,7 @@ class Reporter:
                 running=actor.running,
                 epoch=actor.admission.epoch,
                 dropped=actor.dropped,
+                refused_permits=actor.admission.refused_permits,
                 fluents={name: reading.value for name, reading in readings.items()},
                 stamps_ns={name: reading.stamp_ns for name, reading in readings.items()},
             )

@@ -1,4 +1,7 @@
-"""Stop and reset of one robot. The stop acts in the bus's own thread, past the event loop; release is signed."""
+"""Stop and reset of one robot. The stop acts in the bus's own thread, past the event loop; release is signed.
+
+The orchestrator's heartbeat holds the stop up: it latches a robot that missed the message, or was not there yet.
+"""
 
 import asyncio
 from collections import Counter
@@ -8,7 +11,7 @@ from crew.adapter import Adapter
 from crew.bus.port import Bus, Sample
 from crew.keys import Keys
 from crew.mailbox import Events, Letter, letters
-from crew.messages import RESET, Reset
+from crew.messages import RESET, Heartbeat, Reset
 from crew.signing import verify
 from crew.wire import Refusal
 
@@ -25,6 +28,7 @@ class StopSwitch:
         self._loop = asyncio.get_running_loop()
         self._stopped = asyncio.Event()
         self._nonces: set[str] = set()
+        self._told = (-1, -1)
         self._resets: Events[Letter[Reset]] = Events(letters(Reset), capacity=16, on_lost=lambda _: None)
         self._declared = [bus.on_sample(keys.stop, self._on_stop), bus.subscribe(keys.reset, self._resets)]
         self.acting = False
@@ -45,6 +49,25 @@ class StopSwitch:
         finally:
             for declaration in self._declared:
                 declaration.close()
+
+    def hear(self, beat: Heartbeat) -> None:
+        """The orchestrator's word: a stop that is newer than the last it told of latches whom it names.
+
+        The number tells a stop that this robot missed from one that it was released from since.
+        """
+        newest = (beat.epoch, beat.stop)
+        if newest <= self._told:
+            return
+        self._told = newest
+        if self._actor.name in beat.stopped and not self._adapter.latched:
+            self._adapter.halt()
+            self._stopped.set()
+
+    def again(self) -> None:
+        """The vehicle has only now been found: what was latched before is carried out on it."""
+        if self._adapter.latched:
+            self._adapter.halt()
+            self._stopped.set()
 
     def _on_stop(self, sample: Sample) -> None:
         """In the bus's thread: latch and halt first, tell the loop afterwards."""

@@ -45,6 +45,10 @@ class MemoryBus:
     def reconnect(self) -> None:
         self._fabric.set_connected(self._link, True)
 
+    @property
+    def connected(self) -> bool:
+        return self._link.connected
+
     def put(self, key: str, body: Body, *, qos: Qos) -> None:
         payload, encoding = packed(body)
         self._fabric.send(self._link, Sample(self._one_key(key), payload, encoding, time.monotonic_ns()))

@@ -86,6 +86,11 @@ class Bus(Protocol):
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None: ...
 
+    @property
+    def connected(self) -> bool:
+        """Whether a router is linked now. Tells a lost bus from others that are lost on it."""
+        ...
+
     def put(self, key: str, body: Body, *, qos: Qos) -> None:
         """Send once; from any thread."""
         ...

@@ -64,6 +64,10 @@ class ZenohBus:
         finally:
             await asyncio.to_thread(self._session.close)
 
+    @property
+    def connected(self) -> bool:
+        return bool(self._session.info.routers_zid())
+
     def put(self, key: str, body: Body, *, qos: Qos) -> None:
         self._rights.to_write(Way.PUT, key)
         payload, encoding = packed(body)

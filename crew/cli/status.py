@@ -6,7 +6,7 @@ from crew.cli.session import operator, run
 from crew.clock import WALL
 from crew.keys import Keys
 from crew.launch.ready import query_status
-from crew.messages import CrewStatus, RobotStatus
+from crew.messages import CrewStatus, RobotStatus, StopStatus
 
 ACTORS = ("simulation", "orchestrator", "planner", "gateway")
 LISTEN_S = 0.3
@@ -49,10 +49,8 @@ async def _who_lives(bus: Bus, keys: Keys) -> set[str]:
 
 
 def _say_status(status: CrewStatus) -> None:
-    if status.stopped:
-        still_moving = [r.robot for r in status.robots if not r.still]
-        doubt = f"; not confirmed standing still, treat as moving: {', '.join(still_moving)}" if still_moving else ""
-        say(coloured(f"STOPPED{doubt}; release with crew reset", "red"))
+    if status.stop is not None:
+        say(coloured(stop_line(status.stop), "red"))
     for line in table(_robot_row(r) for r in status.robots):
         say(line)
     for line in table(
@@ -64,7 +62,15 @@ def _say_status(status: CrewStatus) -> None:
         if mission.question:
             say(f"{mission.mission} asks: {mission.question}\n  crew confirm {mission.mission}")
     if status.dropped:
-        say(f"unreadable or lost messages: {', '.join(f'{k} {n}' for k, n in status.dropped.items())}")
+        say(f"refused or lost messages: {', '.join(f'{k} {n}' for k, n in status.dropped.items())}")
+
+
+def stop_line(stop: StopStatus) -> str:
+    """Who stopped the crew, and who of it may still be moving."""
+    why = f": {stop.reason}" if stop.reason else ""
+    moving = ", ".join(stop.treat_as_moving)
+    doubt = f"; not confirmed standing still, treat as moving: {moving}" if moving else "; all stand still"
+    return f"STOPPED by {stop.by}{why}{doubt}; release with crew reset"
 
 
 def _robot_row(robot: RobotStatus) -> dict[str, str]:

@@ -73,6 +73,8 @@ def run_reset(robots: tuple[str, ...], crew: str) -> int:
 
 async def _reset(robots: tuple[str, ...], crew: str) -> int:
     key = load_or_create_key(home().keys, OPERATOR)
+    if crew and home().running(crew) is None and not robots:
+        return _release_kept(crew)
     async with operator(crew) as (bus, keys, running):
         status = await query_status(bus, keys, timeout_s=2.0)
         if status is None:
@@ -92,6 +94,17 @@ async def _reset(robots: tuple[str, ...], crew: str) -> int:
         signed = Reset(by=OPERATOR, epoch=status.epoch, targets=targets, nonce=unsigned.nonce, signature=signature)
         bus.put(keys.reset, signed, qos=Qos.STOP)
         return await _await_release(events, set(targets))
+
+
+def _release_kept(crew: str) -> int:
+    """The stop that is kept for a crew that does not run: whoever owns the operator's key may lift it."""
+    path = home().stop(crew)
+    if not path.exists():
+        say(f"no crew called {crew} runs here, and no stop is kept for it")
+        return 0
+    path.unlink()
+    say(f"the stop that was kept for {crew} is lifted: it will come up released")
+    return 0
 
 
 async def _await_release(events: Events[Letter[RobotEvent]], waiting: set[str]) -> int:

@@ -6,6 +6,7 @@ import time
 from crew.cli.follow import event_box
 from crew.cli.output import coloured, say, say_event
 from crew.cli.session import home, run
+from crew.cli.status import stop_line
 from crew.launch.live import UNSECURED, LiveCrew, live_crew
 from crew.launch.options import LaunchOptions
 from crew.mailbox import Events, Letter, letters
@@ -81,6 +82,8 @@ def _introduce(crew: LiveCrew, ready_s: float) -> None:
     for robot in crew.status.robots:
         state = coloured(f"not available: {robot.unavailable}", "red") if robot.unavailable else "available"
         say(f"  {robot.robot:10} {robot.kind:12} {state}")
+    if crew.status.stop is not None:
+        say(coloured(stop_line(crew.status.stop), "red"))
     say(f"  router     {crew.running.endpoint}; guests {crew.running.guests}")
     say(f"  run        {crew.run_folder}")
     say('ask it for something: crew request "..."; stop everything: crew stop; end: Ctrl-C')

@@ -24,7 +24,8 @@ from crew.signing import load_or_create_key
 from crew.supervisor import Exit, Supervisor
 
 READY_S = 20.0
-OPERATOR = "operator"
+OPERATOR, ORCHESTRATOR = "operator", "orchestrator"
+"""Names of their signing keys."""
 UNSECURED = "UNSECURED: simulation only (--single-process: one process holds every role's key)"
 
 
@@ -73,6 +74,7 @@ async def live_crew(options: LaunchOptions, home: Home) -> AsyncIterator[LiveCre
             home=home.path.absolute(),
             epoch=home.next_epoch(rules.crew.name),
             operator_key=load_or_create_key(home.keys, OPERATOR).public,
+            orchestrator_key=load_or_create_key(home.keys, ORCHESTRATOR).public,
         )
         if options.single_process:
             runner: Supervisor | SingleProcess = SingleProcess(run_folder)

@@ -10,7 +10,7 @@ from crew.messages import CrewStatus
 from crew.wire import decode
 
 ASK_EVERY_S = 0.02
-NOT_YET = ("connecting", "never heard of")
+NOT_YET = ("connecting", "never heard of", "waiting for the orchestrator")
 CONNECT_S = 8.0
 """After this long a robot that still has no vehicle is reported as it is; the crew is up without it."""
 

@@ -25,6 +25,7 @@ def process_table(
     home: Path,
     epoch: int,
     operator_key: bytes,
+    orchestrator_key: bytes,
 ) -> list[Child]:
     """Every process of the crew, with what it is started with."""
     packed = pack(rules)
@@ -37,6 +38,7 @@ def process_table(
         epoch=epoch,
         planner=options.planner,
         simulated=True,
+        operator_key=operator_key,
     )
     robots = [
         Child(
@@ -49,6 +51,7 @@ def process_table(
                 connection=f"udpin:127.0.0.1:{ports[robot.name]}",
                 simulated=True,
                 operator_key=operator_key,
+                orchestrator_key=orchestrator_key,
             ),
         )
         for robot in rules.crew.robots

@@ -22,6 +22,7 @@ class IdleSpec(msgspec.Struct, frozen=True):
     """Its way to the router."""
 
     link: Link
+    orchestrator_key: bytes
 
 
 class IdleAdapter:
@@ -71,13 +72,16 @@ class IdleAdapter:
 
 async def main(context: ChildContext) -> None:
     """Serve until asked to stop."""
+    spec = context.spec(IdleSpec)
     rules = load_rules("air_ground")
     robot = rules.crew.robot(ROBOT)
     assert robot is not None
     clock = WallClock()
     config = AdapterConfig(robot=ROBOT, kind=robot.kind, connection="", area=(-6, 10, -6, 10), origin=(0, 0, 0))
-    async with ZenohBus(context.spec(IdleSpec).link) as bus:
-        actor = RobotActor(bus, Keys("bench"), robot, rules, IdleAdapter(config, clock), clock, b"")
+    async with ZenohBus(spec.link) as bus:
+        actor = RobotActor(
+            bus, Keys("air_ground"), robot, rules, IdleAdapter(config, clock), clock, b"", spec.orchestrator_key
+        )
         context.ready()
         await actor.run()
 

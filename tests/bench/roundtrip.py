@@ -22,16 +22,20 @@ from crew.bus.zenoh import ZenohBus
 from crew.contracts.plan import digest
 from crew.keys import Keys
 from crew.launch.table import free_tcp_port
+from crew.library import load_rules
 from crew.mailbox import Events, KeepLatest, Letter, letters
-from crew.messages import Dispatch, RobotCard, RobotEvent
+from crew.messages import Dispatch, Heartbeat, RobotCard, RobotEvent
+from crew.permit import permit
 from crew.router import RouterSpec
+from crew.signing import SigningKey
 from crew.supervisor import Child, Supervisor
 from crew.wire import encode
 from tests.bench.raw_echo import ANSWER, ASK, EchoSpec
 from tests.bench.robot_child import ROBOT, IdleSpec
 from tests.open_router import OpenRouterSpec
 
-KEYS = Keys("bench")
+KEYS = Keys("air_ground")
+KEY = SigningKey(bytes(32))
 ORCHESTRATOR = str(Role.ORCHESTRATOR)
 WARM_UP = 50
 
@@ -58,7 +62,7 @@ async def _measure(rounds: int) -> tuple[list[float], list[float]]:
             Child(name="open router", module="tests.open_router", spec=OpenRouterSpec(floor), last=True),
             Child(name="router", module="crew.router", spec=router, last=True),
             Child(name="echo", module="tests.bench.raw_echo", spec=EchoSpec(floor)),
-            Child(name="robot", module="tests.bench.robot_child", spec=IdleSpec(link(f"{ROBOT_PREFIX}{ROBOT}"))),
+            Child(name="robot", module="tests.bench.robot_child", spec=IdleSpec(link(f"{ROBOT_PREFIX}{ROBOT}"), KEY.public)),
         ]
         async with Supervisor(Path(folder), on_exit=print) as supervisor:
             await supervisor.start(children, ready_timeout_s=20.0)
@@ -103,13 +107,17 @@ async def _interleave(bus: ZenohBus, raw: RawPing, rounds: int) -> tuple[list[fl
     await cards.changed()
     boot = cards.take()[0].message.boot_id
     publisher = bus.publisher(KEYS.act(ROBOT, "stop"), qos=Qos.ACTUATION)
-    payload = encode(_dispatch(1, boot))[0]
+    contract = digest(load_rules("air_ground").contracts["dispatch_only"])
+    payload = encode(permit(_dispatch(1, boot, contract), KEYS.crew, KEY))[0]
+    bus.put(KEYS.heartbeat(), permit(_beat(0), KEYS.crew, KEY), qos=Qos.EVENT)
+    await asyncio.sleep(0.5)  # the robot looks for heartbeats every 0.1 s
     floors, trips = [], []
     for number in range(1, rounds + WARM_UP + 1):
         floors.append(await asyncio.to_thread(raw.ping, payload))
-        dispatch = _dispatch(number, boot)
+        dispatch = _dispatch(number, boot, contract)
+        bus.put(KEYS.heartbeat(), permit(_beat(number), KEYS.crew, KEY), qos=Qos.EVENT)
         began_ns = time.perf_counter_ns()
-        publisher.put(dispatch)
+        publisher.put(permit(dispatch, KEYS.crew, KEY))
         accepted_ns = await _accepted(events, number)
         trips.append((accepted_ns - began_ns) / 1000)
     return floors[WARM_UP:], trips[WARM_UP:]
@@ -129,8 +137,12 @@ async def _accepted(events: Events[Letter[RobotEvent]], number: int) -> int:
     raise RuntimeError("the mailbox was closed")
 
 
-def _dispatch(number: int, boot: str) -> Dispatch:
-    now_ns = time.monotonic_ns()
+def _beat(number: int) -> Heartbeat:
+    return Heartbeat(name="orchestrator", epoch=1, count=number)
+
+
+def _dispatch(number: int, boot: str, contract: str) -> Dispatch:
+    now_ns = time.time_ns()
     return Dispatch(
         mission="bench",
         step="safe:responder",
@@ -145,5 +157,5 @@ def _dispatch(number: int, boot: str) -> Dispatch:
         expires_ns=now_ns + 2_000_000_000,
         args_digest=digest({}),
         plan_digest="0" * 64,
-        contract_digest="0" * 64,
+        contract_digest=contract,
     )

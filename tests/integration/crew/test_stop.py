@@ -10,8 +10,10 @@ import pytest
 from crew.bus.port import Body, Qos
 from crew.clock import seconds_ns
 from crew.contracts.plan import ArgValue, digest
-from crew.launch.live import OPERATOR
+from crew.launch.live import OPERATOR, ORCHESTRATOR
+from crew.library import load_rules
 from crew.messages import RESET, Dispatch, Reset, RobotEvent, Stop
+from crew.permit import permit
 from crew.signing import load_or_create_key
 from tests.integration.crew.harness import FAR_DRIVE, SEARCH, SHORT_DRIVE, Desk, Up, Watch, intents, watching
 
@@ -124,14 +126,18 @@ async def test_while_latched_nothing_is_accepted_by_anybody(watch: Watch, desk: 
         args=args,
         epoch=(await watch.status()).epoch,
         lease="m-forged",
+        fence=1 << 20,
         boot_id=watch.states["tb3"].boot_id,
         issued_ns=now_ns,
         expires_ns=now_ns + seconds_ns(60.0),
         args_digest=digest(args),
         plan_digest="",
-        contract_digest="",
+        contract_digest=digest(load_rules("air_ground").contracts["dispatch_only"]),
     )
     watch.put(watch.keys.act("tb3", "navigate_to"), forged, qos=Qos.ACTUATION)
+    await watch.until(lambda: any(e.what == "permit_refused" for e in watch.robot_events), why="it says so")
+    rightful = permit(forged, watch.keys.crew, load_or_create_key(desk.home.keys, ORCHESTRATOR))
+    watch.put(watch.keys.act("tb3", "navigate_to"), rightful, qos=Qos.ACTUATION)
     await watch.until(lambda: any(e.mission == "m-forged" for e in watch.robot_events), why="an answer")
     answer = next(e for e in watch.robot_events if e.mission == "m-forged")
     assert (answer.what, answer.code) == ("refused", "stopped")

@@ -1,10 +1,14 @@
 """A crew in which some actors run in threads of the test, so that a test can block their loops or reach inside."""
 
 import asyncio
+import os
+import signal
 import threading
 from collections.abc import AsyncIterator, Awaitable, Callable
 from contextlib import AsyncExitStack, asynccontextmanager
 from typing import Any, Self, TypeVar
+
+import msgspec
 
 from crew.actors.orchestrator import process as orchestrator_process
 from crew.actors.robot import process as robot_process
@@ -14,7 +18,7 @@ from crew.bus.port import Bus
 from crew.bus.zenoh import ZenohBus
 from crew.clock import Clock
 from crew.contracts.site import RobotSpec, Rules
-from crew.launch.live import OPERATOR, new_run_folder
+from crew.launch.live import OPERATOR, ORCHESTRATOR, new_run_folder
 from crew.launch.options import LaunchOptions
 from crew.launch.ready import await_ready
 from crew.launch.single import InlineContext
@@ -103,8 +107,24 @@ class ActorThread:
 class ThreadedCrew:
     """A crew that is up, with what its threads hold."""
 
-    def __init__(self, watch: Watch, threads: dict[str, ActorThread], adapters: dict[str, Adapter]) -> None:
+    def __init__(
+        self,
+        watch: Watch,
+        threads: dict[str, ActorThread],
+        adapters: dict[str, Adapter],
+        supervisor: Supervisor,
+        children: dict[str, Child],
+    ) -> None:
         self.watch, self.threads, self.adapters = watch, threads, adapters
+        self.supervisor, self.children = supervisor, children
+
+    async def restart(self, name: str, **changes: Any) -> None:
+        """Kill one of the processes, and start it anew with changes to what it is started with."""
+        if name in self.supervisor.pids:
+            os.kill(self.supervisor.pids[name], signal.SIGKILL)
+        child = self.children[name]
+        child = msgspec.structs.replace(child, spec=msgspec.structs.replace(child.spec, **changes))
+        await self.supervisor.restart(child, ready_timeout_s=READY_S)
 
 
 @asynccontextmanager
@@ -134,6 +154,7 @@ async def crew_with_threads(desk: Desk, *names: str, speed: float = 0.0) -> Asyn
                 home=desk.home.path,
                 epoch=desk.home.next_epoch(NAME),
                 operator_key=load_or_create_key(desk.home.keys, OPERATOR).public,
+                orchestrator_key=load_or_create_key(desk.home.keys, ORCHESTRATOR).public,
             )
             supervisor = await stack.enter_async_context(Supervisor(folder, on_exit=lambda _: None))
             await supervisor.start([c for c in children if c.name not in names], ready_timeout_s=READY_S)
@@ -146,6 +167,6 @@ async def crew_with_threads(desk: Desk, *names: str, speed: float = 0.0) -> Asyn
             watch = await stack.enter_async_context(watching(running))
             robots = [robot.name for robot in rules.crew.robots]
             await await_ready(watch.bus, watch.keys, robots, timeout_s=READY_S, died=lambda: "")
-            yield ThreadedCrew(watch, threads, adapters)
+            yield ThreadedCrew(watch, threads, adapters, supervisor, {c.name: c for c in children})
     finally:
         robot_process.make_adapter = make_adapter

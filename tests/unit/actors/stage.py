@@ -23,6 +23,7 @@ from crew.keys import Keys
 from crew.library import load_rules
 from crew.mailbox import Events, KeepLatest, Letter, letters
 from crew.messages import RESET, CancelSkill, Dispatch, Heartbeat, Reset, RobotEvent, RobotState, Stop
+from crew.permit import permit
 from crew.signing import SigningKey
 
 WAIT_S = 5.0
@@ -121,12 +122,16 @@ class RobotStage:
     adapter: FakeAdapter
     actor: RobotActor
     operator: SigningKey
+    orchestrator: SigningKey
     fabric: MemoryFabric
     events: list[RobotEvent] = field(default_factory=list)
     states: list[RobotState] = field(default_factory=list)
     token: Declaration | None = None
     task: "asyncio.Task[None] | None" = None
     beats: int = 0
+    fence: int = 1
+    pulse: "asyncio.Task[None] | None" = None
+    robot_bus: MemoryBus | None = None
 
     def __post_init__(self) -> None:
         self._events: Events[Letter[RobotEvent]] = Events(letters(RobotEvent), capacity=4096, on_lost=lambda _: None)
@@ -179,7 +184,7 @@ class RobotStage:
     # The orchestrator's side.
 
     def dispatch(self, sequence: int = 1, **changes: Any) -> Dispatch:
-        """A sound dispatch to a near point, with what the test wants to be different."""
+        """A sound dispatch to a near point, with what the test wants to be different before it is signed."""
         args: Mapping[str, ArgValue] = changes.pop("args", {"x": NEAR[0], "y": NEAR[1]})
         now_ns = self.clock.now_ns()
         sound: dict[str, Any] = {
@@ -192,14 +197,15 @@ class RobotStage:
             "args": args,
             "epoch": 1,
             "lease": "m1",
+            "fence": self.fence,
             "boot_id": self.actor.boot_id,
             "issued_ns": now_ns,
             "expires_ns": now_ns + seconds_ns(2.0),
             "args_digest": digest(dict(args)),
             "plan_digest": "",
-            "contract_digest": "",
+            "contract_digest": digest(self.rules.contracts["dispatch_only"]),
         }
-        return Dispatch(**{**sound, **changes})
+        return permit(Dispatch(**{**sound, **changes}), self.keys.crew, self.orchestrator)
 
     def send(self, dispatch: Dispatch, *, key_robot: str = "tb3") -> None:
         self.bus.put(self.keys.act(key_robot, dispatch.skill), dispatch, qos=Qos.ACTUATION)
@@ -212,18 +218,42 @@ class RobotStage:
     def cancel(self, **changes: Any) -> None:
         sound: dict[str, Any] = {"mission": "m1", "sequence": 1, "robot": "tb3", "epoch": 1}
         message = CancelSkill(**{**sound, "boot_id": self.actor.boot_id, **changes})
+        self.put_cancel(permit(message, self.keys.crew, self.orchestrator))
+
+    def put_cancel(self, message: CancelSkill) -> None:
         self.bus.put(self.keys.act_cancel("tb3"), message, qos=Qos.ACTUATION)
 
-    def beat(self, epoch: int = 1) -> None:
+    def heartbeat(self, epoch: int = 1, **changes: Any) -> Heartbeat:
         self.beats += 1
-        message = Heartbeat(name="orchestrator", epoch=epoch, count=self.beats)
-        self.bus.put(self.keys.heartbeat(), message, qos=Qos.EVENT)
+        unsigned = Heartbeat(**{"name": "orchestrator", "epoch": epoch, "count": self.beats, **changes})
+        return permit(unsigned, self.keys.crew, self.orchestrator)
+
+    def beat(self, epoch: int = 1, **changes: Any) -> None:
+        self.bus.put(self.keys.heartbeat(), self.heartbeat(epoch, **changes), qos=Qos.EVENT)
+
+    def freeze(self) -> None:
+        """The orchestrator's heart stands still; its token stays."""
+        assert self.pulse is not None
+        self.pulse.cancel()
+
+    def orchestrator_dies(self) -> None:
+        """Its token and its heartbeat are gone at once."""
+        assert self.token is not None
+        self.freeze()
+        self.token.close()
 
     async def orchestrator_lives(self, epoch: int = 1) -> None:
         """Its token is there and it has been heard."""
         self.token = self.bus.token(self.keys.alive("orchestrator"))
+        self.freeze()
         self.beat(epoch)
+        self.pulse = asyncio.create_task(self._beat_on(epoch))
         await self.until(lambda: self.actor.admission.epoch == epoch, "the heartbeat is heard")
+
+    async def _beat_on(self, epoch: int) -> None:
+        while True:
+            await asyncio.sleep(0.2)
+            self.beat(epoch)
 
     # The operator's side.
 
@@ -260,21 +290,42 @@ def air_ground() -> Rules:
 
 
 @asynccontextmanager
-async def robot_stage(*missing: AdapterError) -> AsyncIterator[RobotStage]:
-    """A rover's actor that runs, on a fabric of its own; `missing` are the failures of its first connects."""
+async def robot_stage(
+    *missing: AdapterError, alone: bool = False, stop_first: bool = False
+) -> AsyncIterator[RobotStage]:
+    """A rover's actor that runs, on a fabric of its own; `missing` are the failures of its first connects.
+
+    Unless it is `alone`, an orchestrator of epoch 0 is heard. `stop_first` yields before a vehicle was found, stopped.
+    """
     rules = air_ground()
     spec = rules.crew.robot("tb3")
     assert spec is not None
     keys, clock, operator = Keys("air_ground"), SimClock(), SigningKey(secrets.token_bytes(32))
+    orchestrator = SigningKey(secrets.token_bytes(32))
     with MemoryFabric() as fabric:
         async with MemoryBus(fabric) as robot_bus, MemoryBus(fabric) as bus:
             adapter = FakeAdapter(clock)
             adapter.missing = list(missing)
-            actor = RobotActor(robot_bus, keys, spec, rules, as_adapter(adapter), clock, operator.public)
-            stage = RobotStage(rules, bus, keys, clock, adapter, actor, operator, fabric)
+            actor = RobotActor(
+                robot_bus, keys, spec, rules, as_adapter(adapter), clock, operator.public, orchestrator.public
+            )
+            stage = RobotStage(rules, bus, keys, clock, adapter, actor, operator, orchestrator, fabric)
+            stage.robot_bus = robot_bus
             stage.task = asyncio.create_task(actor.run())
             try:
+                if stop_first:
+                    stage.stop()
+                    stage.pulse = stage.task
+                    yield stage
+                    return
                 await stage.heard("ready")
+                stage.pulse = asyncio.create_task(stage._beat_on(0))
+                if alone:
+                    stage.freeze()
+                else:
+                    stage.beat(0)
+                    await stage.until(lambda: not actor.unavailable, "the orchestrator is heard")
                 yield stage
             finally:
+                stage.freeze()
                 await stage.end()

@@ -8,6 +8,7 @@ import pytest
 
 from crew.actors.orchestrator import flight as flight_module
 from crew.actors.orchestrator.flight import Dispatcher
+from crew.actors.orchestrator.lease import LeaseTable
 from crew.actors.orchestrator.world import WorldFold
 from crew.bus.fabric import MemoryFabric
 from crew.bus.memory import MemoryBus
@@ -20,6 +21,7 @@ from crew.errors import JournalError
 from crew.keys import Keys
 from crew.mailbox import Events, Letter, letters
 from crew.messages import CancelSkill, Dispatch, RobotCard, RobotEvent
+from crew.signing import SigningKey
 from crew.wire import Message
 from tests.unit.actors.stage import air_ground
 
@@ -65,8 +67,19 @@ class Desk:
             RobotCard(robot="tb3", kind="rover", kind_digest="d", boot_id="b1", adapter="mavlink", simulated=True)
         )
         ledger: Any = self.ledger
+        self.key, self.leases = SigningKey(b"k" * 32), LeaseTable()
         self.dispatcher = Dispatcher(
-            bus, KEYS, self.clock, ledger, world, rules, 3, lambda _, event: self.fed.append(event), self._spawn
+            bus,
+            KEYS,
+            self.clock,
+            ledger,
+            world,
+            self.leases,
+            rules,
+            3,
+            self.key,
+            lambda _, event: self.fed.append(event),
+            self._spawn,
         )
 
     def _spawn(self, mission: str, work: Coroutine[Any, Any, None]) -> None:

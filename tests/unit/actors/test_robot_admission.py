@@ -33,10 +33,9 @@ async def test_a_sound_dispatch_is_accepted_run_and_reported_once(stage: RobotSt
 @pytest.mark.parametrize(
     ("changes", "code"),
     [
-        ({"robot": "iris"}, "wrong_robot"),
-        ({"boot_id": "an earlier life"}, "old_boot"),
-        ({"epoch": 0}, "old_epoch"),
         ({"expires_ns": -1}, "expired"),
+        ({"issued_ns": seconds_ns(3600.0), "expires_ns": seconds_ns(3602.0)}, "clock_skew"),
+        ({"contract_digest": "0" * 64}, "unknown_contract"),
         ({"args_digest": "0" * 64}, "altered"),
         ({"args": {"x": 20.0, "y": 0.0}}, "out_of_bounds"),
         ({"args": {"x": float("nan"), "y": 0.0}}, "bad_argument"),
@@ -69,11 +68,11 @@ async def test_a_sequence_is_taken_once_and_in_order(stage: RobotStage) -> None:
     await stage.started(sequence=2)
     stage.adapter.arrive()
     await stage.heard("succeeded")
-    for sequence in (2, 1):
+    for sequence, code in ((2, "replayed"), (1, "reordered")):
         count = len(stage.events)
         stage.send(stage.dispatch(sequence))
         await stage.until(lambda count=count: len(stage.events) > count, "an answer")  # type: ignore[misc]
-        assert stage.last("refused").code == "already_consumed"
+        assert stage.last("permit_refused").code == code
     assert stage.adapter.did == ["navigate_to"]
     stage.adapter.finish.clear()
     stage.send(stage.dispatch(1, mission="m2"))
@@ -88,17 +87,24 @@ async def test_a_duplicated_dispatch_runs_once(stage: RobotStage) -> None:
     assert stage.whats.count("accepted") == 1
 
 
-async def test_a_refusal_uses_up_nothing(stage: RobotStage) -> None:
-    stage.send(stage.dispatch(args_digest="wrong"))
-    await stage.heard("refused")
-    await stage.started(sequence=1)
+async def test_a_refusal_uses_up_its_permit_alone(stage: RobotStage) -> None:
+    """Otherwise whoever kept a copy could have it carried out once the reason for the refusal is gone."""
+    stage.stop()
+    await stage.until(lambda: stage.adapter.latched, "stopped")
+    kept = stage.dispatch(1)
+    stage.send(kept)
+    assert (await stage.heard("refused")).code == "stopped"
+    stage.adapter.release()
+    stage.send(kept)
+    assert (await stage.heard("permit_refused")).code == "replayed"
+    await stage.started(sequence=2)
 
 
 async def test_a_newer_orchestrator_ends_the_older_ones_authority(stage: RobotStage) -> None:
     stage.beat(epoch=7)
     await stage.until(lambda: stage.actor.admission.epoch == 7)
     stage.send(stage.dispatch(epoch=6))
-    assert (await stage.heard("refused")).code == "old_epoch"
+    assert (await stage.heard("permit_refused")).code == "old_epoch"
     stage.send(stage.dispatch(epoch=7))
     await stage.heard("accepted")
 

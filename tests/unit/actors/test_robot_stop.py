@@ -82,8 +82,7 @@ async def test_a_robot_that_ends_while_it_makes_itself_safe_ends_at_once(stage: 
     stage.adapter.brake.clear()
     stage.cancel()
     await stage.until(lambda: "cancel" in stage.adapter.did, "it brakes")
-    assert stage.token is not None
-    stage.token.close()
+    stage.orchestrator_dies()
     await stage.heard("orchestrator_lost")
     assert await WALL.race(stage.end(), 2.0)
     assert not any(d.startswith("safe:") for d in stage.adapter.did)
@@ -226,8 +225,7 @@ async def test_an_unreadable_reset_is_no_reset(stage: RobotStage) -> None:
 
 async def test_a_lost_orchestrator_ends_the_skill_and_makes_safe_once(stage: RobotStage) -> None:
     await stage.started()
-    assert stage.token is not None
-    stage.token.close()
+    stage.orchestrator_dies()
     lost_event = await stage.heard("orchestrator_lost")
     assert "token" in lost_event.detail
     await stopped(stage)
@@ -242,15 +240,15 @@ async def test_a_lost_orchestrator_ends_the_skill_and_makes_safe_once(stage: Rob
 async def test_an_orchestrator_whose_loop_is_frozen_counts_as_lost(
     stage: RobotStage, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(lost, "SILENT_S", 0.2)
     await stage.started()
+    monkeypatch.setattr(lost, "SILENT_S", 0.3)
+    stage.freeze()
     assert "no heartbeat" in (await stage.heard("orchestrator_lost")).detail
     await stopped(stage)
 
 
 async def test_an_orchestrator_lost_while_idle_makes_the_robot_safe(stage: RobotStage) -> None:
-    assert stage.token is not None
-    stage.token.close()
+    stage.orchestrator_dies()
     await stage.heard("orchestrator_lost")
     await stopped(stage)
     assert stage.adapter.did == ["safe:stop"]
@@ -260,35 +258,100 @@ async def test_an_orchestrator_lost_while_the_effect_is_awaited(stage: RobotStag
     await stage.started()
     stage.adapter.finish.set()
     await stage.settle()
-    assert stage.token is not None
-    stage.token.close()
+    stage.orchestrator_dies()
     await stopped(stage)
     assert [(e.what, e.code) for e in stage.events if e.mission][1:] == [("cancelled", "orchestrator_lost")]
 
 
 async def test_an_orchestrator_that_comes_back_is_obeyed_and_missed_again(stage: RobotStage) -> None:
-    assert stage.token is not None
-    stage.token.close()
+    stage.orchestrator_dies()
     await stage.heard("orchestrator_lost")
     await stopped(stage)
     await stage.orchestrator_lives(epoch=2)
     stage.send(stage.dispatch(epoch=2))
     await stage.heard("accepted")
-    stage.token.close()
+    stage.orchestrator_dies()
     await stage.until(lambda: stage.whats.count("orchestrator_lost") == 2, "lost again")
 
 
 async def test_before_an_orchestrator_was_ever_heard_nothing_is_lost() -> None:
-    async with robot_stage() as stage:
+    async with robot_stage(alone=True) as stage:
         await asyncio.sleep(0.3)
         await stage.settle()
         assert "orchestrator_lost" not in stage.whats
 
 
 async def test_a_stop_after_the_orchestrator_was_lost_still_latches(stage: RobotStage) -> None:
-    assert stage.token is not None
-    stage.token.close()
+    stage.orchestrator_dies()
     await stopped(stage)
     stage.stop()
     await stage.until(lambda: stage.adapter.latched, "latched")
     await stage.heard("stopped")
+
+
+# --- the stop as the orchestrator's heartbeat holds it up
+
+
+async def test_a_robot_that_starts_while_the_crew_is_stopped_comes_up_latched_and_takes_nothing() -> None:
+    async with robot_stage(alone=True) as stage:
+        stage.beat(epoch=1, stop=4, stopped=("iris", "tb3"))
+        await stage.until(lambda: stage.adapter.latched, "latched by the first heartbeat")
+        await stopped(stage)
+        stage.send(stage.dispatch())
+        assert (await stage.heard("refused", "accepted")).code == "stopped"
+
+
+async def test_a_robot_that_missed_the_stop_is_latched_by_the_next_heartbeat(stage: RobotStage) -> None:
+    stage.fabric.drop_next(stage.keys.stop)
+    await stage.started()
+    stage.stop()
+    await stage.settle()
+    assert not stage.adapter.latched, "the message was lost"
+    stage.beat(stop=1, stopped=("tb3",))
+    await stopped(stage)
+    assert stage.adapter.did == ["navigate_to", "halt", "safe:stop"]
+
+
+async def test_a_heartbeat_that_still_tells_of_a_stop_does_not_latch_whom_a_reset_released(stage: RobotStage) -> None:
+    stage.beat(stop=1, stopped=("tb3",))
+    await stopped(stage)
+    stage.reset()
+    await stage.heard("released")
+    stage.beat(stop=1, stopped=("tb3",))
+    await stage.settle()
+    await asyncio.sleep(0.2)
+    assert not stage.adapter.latched
+    stage.beat(stop=2, stopped=("tb3",))
+    await stage.until(lambda: stage.adapter.latched, "a newer stop latches")
+
+
+async def test_a_stop_of_others_latches_nobody_else(stage: RobotStage) -> None:
+    stage.beat(stop=1, stopped=("iris",))
+    await asyncio.sleep(0.2)
+    await stage.settle()
+    assert not stage.adapter.latched
+    await stage.started()
+
+
+async def test_what_was_latched_before_the_vehicle_was_found_is_carried_out_on_it(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(actor, "CONNECT_RETRY_S", 0.3)
+    async with robot_stage(AdapterError("tb3: no vehicle"), stop_first=True) as stage:
+        await stopped(stage)
+        count = stage.adapter.did.count("safe:stop")
+        await stage.heard("ready")
+        await stage.until(lambda: stage.adapter.did.count("safe:stop") > count, "once more, now that it is there")
+
+
+async def test_a_lost_bus_is_told_apart_from_a_lost_orchestrator(stage: RobotStage) -> None:
+    await stage.started()
+    assert stage.robot_bus is not None
+    stage.robot_bus.disconnect()
+    await stage.until(lambda: "safe:stop" in stage.adapter.did, "the declared behaviour runs")
+    assert "bus lost" in stage.actor.unavailable
+    stage.robot_bus.reconnect()
+    returned = await stage.heard("bus_returned")
+    assert returned.code == "bus_lost"
+    assert "orchestrator_lost" not in stage.whats
+    await stage.until(lambda: not stage.actor.unavailable, "it serves again")

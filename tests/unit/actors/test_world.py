@@ -5,6 +5,7 @@ from typing import Any
 
 import pytest
 
+from crew.actors.orchestrator import identity
 from crew.actors.orchestrator import world as world_module
 from crew.actors.orchestrator.lease import LeaseTable
 from crew.actors.orchestrator.world import WorldFold
@@ -116,7 +117,7 @@ def test_a_robot_without_its_token_is_lost_until_it_is_back(world: WorldFold) ->
     world.take_state(state(), now_ns=12)
     world.take_liveliness("tb3", alive=False)
     assert "lost" in world.lost("tb3")
-    assert world.not_still() == ["iris", "tb3"]
+    assert world.still() == []
     world.take_liveliness("tb3", alive=True)
     assert world.lost("tb3") == ""
 
@@ -140,7 +141,7 @@ def test_another_ones_word_ends_no_dispatch(world: WorldFold, changes: dict[str,
 def test_a_stop_is_released_when_no_robot_that_is_heard_is_latched(world: WorldFold) -> None:
     for robot in ("iris", "tb3"):
         world.take_state(state(robot), now_ns=1)
-    world.stop()
+    world.stop("operator")
     assert not world.all_released(), "neither has said yet that it is latched"
     world.take_state(state(at_ns=11, stopped=True), now_ns=1)
     world.take_state(state("iris", at_ns=11, stopped=True), now_ns=1)
@@ -153,25 +154,70 @@ def test_a_stop_is_released_when_no_robot_that_is_heard_is_latched(world: WorldF
 
 def test_a_robot_that_does_not_confirm_a_stop_keeps_it_in_force(world: WorldFold) -> None:
     world.take_state(state(), now_ns=1)
-    world.stop()
+    world.stop("operator")
     for at_ns in (11, 12):
         world.take_state(state(at_ns=at_ns), now_ns=1)
     assert not world.all_released()
     world.take_event(_event("released", 0))
+    world.take_state(state(at_ns=13), now_ns=1)
     assert world.all_released()
 
 
 def test_a_robot_that_is_lost_does_not_keep_a_stop_in_force(world: WorldFold) -> None:
-    world.take_state(state(stopped=True), now_ns=1)
-    world.stop()
+    for robot in ("tb3", "iris"):
+        world.take_state(state(robot, stopped=True), now_ns=1)
+    world.stop("operator")
+    world.take_state(state("iris", at_ns=11, stopped=True), now_ns=1)
+    world.take_state(state("iris", at_ns=12), now_ns=1)
+    assert not world.all_released()
     world.take_liveliness("tb3", alive=False)
     assert world.all_released()
+    assert world.hold.held == ("tb3",), "it comes back latched"
+
+
+def test_a_kept_stop_is_in_force_before_any_robot_is_heard(world: WorldFold) -> None:
+    world.stop("operator")
+    assert not WorldFold(air_ground(), world.hold).all_released()
+    assert WorldFold(air_ground(), world.hold).stopped
 
 
 def test_only_robots_that_confirmed_standing_are_still(world: WorldFold) -> None:
     world.take_state(state(still=True), now_ns=1)
     world.take_state(state("iris", still=False), now_ns=1)
-    assert world.not_still() == ["iris"]
+    assert world.still() == ["tb3"]
+
+
+def test_a_lost_bus_is_not_a_lost_robot(world: WorldFold) -> None:
+    world.take_state(state(), now_ns=12)
+    world.take_liveliness("tb3", alive=False)
+    world.bus_lost = True
+    assert "the bus is lost" in world.lost("tb3")
+    assert "the bus is lost" in world.snapshot({}).robots["tb3"].unavailable
+    world.take_liveliness("tb3", alive=True)
+    world.bus_lost = False
+    assert world.lost("tb3") == ""
+
+
+def test_a_card_that_changes_while_a_robot_runs_makes_it_unavailable(world: WorldFold) -> None:
+    world.take_state(state(), now_ns=12)
+    assert not world.take_card(card()), "the same card again is no change"
+    assert world.lost("tb3") == ""
+    changed = RobotCard(robot="tb3", kind="rover", kind_digest="x", boot_id="b1", adapter="mavlink", simulated=True)
+    assert not world.take_card(changed)
+    assert "its card changed while it ran (kind_digest)" in world.lost("tb3")
+    assert world.snapshot({}).robots["tb3"].kind_digest == "d", "the first card of a boot counts"
+
+
+def test_two_robots_with_one_name_are_both_unavailable_until_one_is_gone(
+    world: WorldFold, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    assert world.take_card(card(boot_id="b2")), "one restart is none of that"
+    assert "two robots" not in world.lost("tb3")
+    assert not world.take_card(card(boot_id="b1"))
+    assert "two robots announce the name tb3 (boots b2 and b1)" in world.lost("tb3")
+    monkeypatch.setattr(identity, "DOUBT_S", -1.0)
+    world.take_state(state(boot_id="b2", at_ns=20), now_ns=20)
+    assert world.lost("tb3") == ""
 
 
 def test_what_robots_dropped_is_known_by_robot(world: WorldFold) -> None:
