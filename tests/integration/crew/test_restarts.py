@@ -32,6 +32,7 @@ async def stopped(desk: Desk) -> AsyncIterator[ThreadedCrew]:
 
 
 async def latched(watch: Watch) -> None:
+    await watch.until(lambda: set(BOTH) <= watch.states.keys(), why="states")
     await watch.until(lambda: all(watch.states[r].stopped and watch.states[r].still for r in BOTH), why="latched")
 
 
