@@ -62,7 +62,11 @@ async def _measure(rounds: int) -> tuple[list[float], list[float]]:
             Child(name="open router", module="tests.open_router", spec=OpenRouterSpec(floor), last=True),
             Child(name="router", module="crew.router", spec=router, last=True),
             Child(name="echo", module="tests.bench.raw_echo", spec=EchoSpec(floor)),
-            Child(name="robot", module="tests.bench.robot_child", spec=IdleSpec(link(f"{ROBOT_PREFIX}{ROBOT}"), KEY.public)),
+            Child(
+                name="robot",
+                module="tests.bench.robot_child",
+                spec=IdleSpec(link(f"{ROBOT_PREFIX}{ROBOT}"), KEY.public),
+            ),
         ]
         async with Supervisor(Path(folder), on_exit=print) as supervisor:
             await supervisor.start(children, ready_timeout_s=20.0)

@@ -2,6 +2,7 @@
 
 import time
 from collections.abc import Callable
+from pathlib import Path
 
 import pytest
 
@@ -15,9 +16,10 @@ from tests.integration.crew.threads import crew_with_threads
 BLOCKED_S = 6.0
 
 
-@pytest.fixture(scope="module")
-def desk(tmp_path_factory: pytest.TempPathFactory) -> Desk:
-    return Desk(tmp_path_factory.mktemp("blocked"))
+@pytest.fixture
+def desk(tmp_path: Path) -> Desk:
+    """One for each: a stop outlives its crew."""
+    return Desk(tmp_path)
 
 
 def asleep() -> None:

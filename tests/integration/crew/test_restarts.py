@@ -100,7 +100,7 @@ def kept(desk: Desk) -> Iterator[Desk]:
 async def test_a_stop_outlives_the_whole_crew(kept: Desk) -> None:
     with kept.up() as up:
         assert "STOPPED by operator: end of the shift" in up.said
-        async with watching(up.running.endpoint) as watch:
+        async with watching(up.running) as watch:
             await latched(watch)
             refused = await watch.mission(SHORT_DRIVE)
             assert (refused.outcome, refused.code) == ("rejected", "stopped")
