@@ -129,6 +129,7 @@ class RobotStage:
     token: Declaration | None = None
     task: "asyncio.Task[None] | None" = None
     beats: int = 0
+    holds: dict[str, Any] = field(default_factory=dict)
     fence: int = 1
     pulse: "asyncio.Task[None] | None" = None
     robot_bus: MemoryBus | None = None
@@ -224,8 +225,10 @@ class RobotStage:
         self.bus.put(self.keys.act_cancel("tb3"), message, qos=Qos.ACTUATION)
 
     def heartbeat(self, epoch: int = 1, **changes: Any) -> Heartbeat:
+        """The next heartbeat; what a test changes stays so."""
         self.beats += 1
-        unsigned = Heartbeat(**{"name": "orchestrator", "epoch": epoch, "count": self.beats, **changes})
+        self.holds |= changes
+        unsigned = Heartbeat(**{"name": "orchestrator", "epoch": epoch, "count": self.beats, **self.holds})
         return permit(unsigned, self.keys.crew, self.orchestrator)
 
     def beat(self, epoch: int = 1, **changes: Any) -> None:
