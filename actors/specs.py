@@ -31,13 +31,33 @@ class RobotActorSpec(msgspec.Struct, frozen=True, kw_only=True):
     orchestrator_key: bytes
 
 
+ANTHROPIC_KEY = "ANTHROPIC_API_KEY"
+COMPATIBLE_KEY = "CREW_PLANNER_KEY"
+PLANNER_KEYS = (ANTHROPIC_KEY, COMPATIBLE_KEY)
+"""Environment variables that the planner's process alone is given."""
+
+
+class PlannerChoice(msgspec.Struct, frozen=True, kw_only=True):
+    """Who plans, as chosen on the command line. Holds no key: that is read where it is used."""
+
+    name: str = "embedded"
+    script: str = ""
+    """JSON file: a list of plans (`script`), or request to plans (`recorded`)."""
+    model: str = ""
+    base_url: str = ""
+    profile: str = ""
+    """JSON file with the peculiarities of an endpoint."""
+    context: str = "contracts"
+    fallback: bool = True
+    """The embedded planner stands in for a model that is unavailable."""
+
+
 class PlannerSpec(msgspec.Struct, frozen=True, kw_only=True):
-    """What the planner's process is started with. `script` is a JSON file with a list of plans."""
+    """What the planner's process is started with."""
 
     rules: PackedRules
     link: Link
-    planner: str
-    script: str = ""
+    choice: PlannerChoice
 
 
 class GatewaySpec(msgspec.Struct, frozen=True, kw_only=True):

@@ -25,6 +25,10 @@ class Stamped(msgspec.Struct, frozen=True):
     received_ns: int
 
 
+STATUSES = ("ok", "absent", "ambiguous")
+"""What a run-time value's status may be."""
+
+
 class ValueReading(msgspec.Struct, frozen=True, kw_only=True):
     """A run-time value. `status` is `ok`, or says why there is no position (`absent`, `ambiguous`)."""
 

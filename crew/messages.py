@@ -188,10 +188,31 @@ class PlannerAsk(Message, frozen=True, kw_only=True):
     mission: str
     attempt: int
     request: str
+    budget_s: float = 60.0
+    """Wall time that is left for planning this mission."""
+    previous: Plan | None = None
+    """The plan that `feedback` refuses."""
     feedback: Refusal | None = None
     airborne: Mapping[str, bool] = {}
     values: Mapping[str, str] = {}
     requester_near: bool | None = None
+
+
+class ProposalOrigin(Message, frozen=True, kw_only=True):
+    """What a model's plan was made from, and what it cost."""
+
+    schema: ClassVar[str] = "crew.proposal_origin"
+    version: ClassVar[int] = 1
+    model: str
+    context: str
+    prompt_digest: str
+    schema_digest: str
+    registry_digest: str
+    tries: int
+    latency_s: float
+    input_tokens: int
+    cached_tokens: int
+    output_tokens: int
 
 
 class PlannerProposal(Message, frozen=True, kw_only=True):
@@ -206,6 +227,9 @@ class PlannerProposal(Message, frozen=True, kw_only=True):
     reason: str = ""
     unreadable: bool = False
     """The planner answered, but not with a plan: this spends the replan."""
+    remark: str = ""
+    """What a person should know about the proposal, such as who stands in for whom."""
+    origin: ProposalOrigin | None = None
 
 
 class Answer(Message, frozen=True, kw_only=True):

@@ -24,12 +24,16 @@ _LAST_BYTES = 4096
 
 
 class Child(msgspec.Struct, frozen=True, kw_only=True):
-    """One process: `python -m module`, its `spec` handed over as msgpack in a file. `last`: ends after all others."""
+    """One process: `python -m module`, its `spec` handed over as msgpack in a file. `last`: ends after all others.
+
+    `secrets` are environment variables that children which do not list them are not given.
+    """
 
     name: str
     module: str
     spec: Any = None
     last: bool = False
+    secrets: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,6 +69,7 @@ class Supervisor:
         self._on_exit = on_exit
         self._running: dict[str, _Running] = {}
         self._group = asyncio.TaskGroup()
+        self._secrets: set[str] = set()
 
     async def __aenter__(self) -> Self:
         if threading.current_thread() is not threading.main_thread():
@@ -90,6 +95,8 @@ class Supervisor:
 
     async def start(self, children: Iterable[Child], *, ready_timeout_s: float) -> None:
         """Spawn all at once and await every readiness; CrewError with a child's last log lines if one fails."""
+        children = list(children)
+        self._secrets |= {name for child in children for name in child.secrets}
         started = [self._spawn(child) for child in children]
         await asyncio.wait(
             [running.ready for running in started], timeout=ready_timeout_s, return_when=asyncio.FIRST_EXCEPTION
@@ -117,6 +124,7 @@ class Supervisor:
         spec = self._folder / "spec" / f"{child.name}.msgpack"
         spec.write_bytes(msgspec.msgpack.encode(child.spec))
         log = self._folder / "logs" / f"{child.name}.log"
+        withheld = self._secrets - set(child.secrets)
         ours, theirs = socket.socketpair()
         with theirs, log.open("ab") as output:
             process = subprocess.Popen(
@@ -125,6 +133,7 @@ class Supervisor:
                 stdout=output,
                 stderr=subprocess.STDOUT,
                 pass_fds=[theirs.fileno()],
+                env={name: value for name, value in os.environ.items() if name not in withheld},
                 process_group=0,
             )
         ours.setblocking(False)

@@ -82,7 +82,9 @@ class Orchestrator:
             self._spawn,
             self._end_tasks,
         )
-        self._desk = PlannerDesk(bus, keys, clock, rules, self._world, self._leases, self.shell.feed, self._spawn)
+        self._desk = PlannerDesk(
+            bus, keys, clock, rules, self._world, self._leases, self.shell.feed, self._spawn, ledger.note
+        )
         self.shell.dispatcher = Dispatcher(
             bus, keys, clock, ledger, self._world, self._leases, rules, epoch, key, self.shell.feed, self._spawn
         )

@@ -57,7 +57,8 @@ class Announcer:
                 self._put(new, "phase", f'request: "{_short(new.request)}"')
             case ev.Proposed():
                 count = len(event.plan.steps)
-                self._put(new, "phase", f"{event.planner} proposes {event.plan.contract} with {count} steps")
+                remark = f" ({event.remark})" if event.remark else ""
+                self._put(new, "phase", f"{event.planner} proposes {event.plan.contract} with {count} steps{remark}")
             case ev.PlannerFailed():
                 self._put(new, "phase", f"the planner gave no plan: {event.reason}")
             case ev.Validated():

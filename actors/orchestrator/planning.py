@@ -4,26 +4,34 @@ import asyncio
 from collections.abc import Callable, Coroutine
 from typing import Any
 
+import msgspec
+
 from crew.actors.orchestrator.lease import LeaseTable
 from crew.actors.orchestrator.world import WorldFold
 from crew.bus.port import Bus, Qos
-from crew.clock import WALL, Clock
+from crew.clock import SECOND_NS, WALL, Clock
 from crew.contracts.codes import Code
 from crew.contracts.language.words import REQUESTER
 from crew.contracts.mission import event as ev
+from crew.contracts.mission.machine import MAX_REPLANS
 from crew.contracts.mission_state import MissionState
 from crew.contracts.refusal import Refusal
 from crew.contracts.site import Rules
-from crew.contracts.snapshot import Snapshot
+from crew.contracts.snapshot import STATUSES, Snapshot
 from crew.keys import Keys
 from crew.mailbox import Events, Letter, letters
 from crew.messages import PlannerAsk, PlannerProposal
 
 BUDGET_S = 60.0
-"""Wall time for one proposal."""
+"""Wall time for all proposals of one mission together."""
+LEAST_S = 2.0
+"""What a replan gets at least, so that a planner without a model can answer it."""
+UNUSABLE = "unusable"
+"""What a planner sees of a run-time value whose status is a robot's own words."""
 
 Feed = Callable[[str, ev.AnyEvent], None]
 Spawn = Callable[[str, Coroutine[Any, Any, None]], None]
+Note = Callable[[str, str], object]
 
 
 class PlannerDesk:
@@ -39,7 +47,10 @@ class PlannerDesk:
         leases: LeaseTable,
         feed: Feed,
         spawn: Spawn,
+        note: Note,
     ) -> None:
+        self._note = note
+        self._spent_s: dict[str, float] = {}
         self._bus, self._keys, self._clock, self._rules = bus, keys, clock, rules
         self._world, self._leases, self._feed, self._spawn = world, leases, feed, spawn
         self._open: dict[tuple[str, int], asyncio.Future[PlannerProposal]] = {}
@@ -73,22 +84,30 @@ class PlannerDesk:
         self._open[key] = future
         if self._gone:
             future.set_result(_nobody(*key))
+        budget_s = max(LEAST_S, BUDGET_S - self._spent_s.pop(mission.id, 0.0))
+        began_ns = WALL.now_ns()
         try:
             with self._clock.busy():
-                self._bus.put(self._keys.planner_ask, self._question(mission, feedback), qos=Qos.EVENT)
-                in_time = await WALL.race(future, BUDGET_S)
+                self._bus.put(self._keys.planner_ask, self._question(mission, feedback, budget_s), qos=Qos.EVENT)
+                in_time = await WALL.race(future, budget_s)
         finally:
             del self._open[key]
+            if mission.replans < MAX_REPLANS:
+                self._spent_s[mission.id] = (WALL.now_ns() - began_ns) / SECOND_NS
         if in_time:
             self._pass_on(future.result())
             return
-        reason = f"no proposal within {BUDGET_S:g} s; is the planner running? (crew status)"
+        reason = f"no proposal within {budget_s:g} s; is the planner running? (crew status)"
         self._feed(mission.id, ev.PlannerFailed(at_ns=self._clock.now_ns(), reason=reason))
 
     def _pass_on(self, proposal: PlannerProposal) -> None:
         at_ns = self._clock.now_ns()
+        if proposal.origin is not None:
+            self._note("proposal", f"{proposal.mission}: {msgspec.json.encode(proposal.origin).decode()}")
         if proposal.plan is not None:
-            event: ev.AnyEvent = ev.Proposed(at_ns=at_ns, plan=proposal.plan, planner=proposal.planner)
+            event: ev.AnyEvent = ev.Proposed(
+                at_ns=at_ns, plan=proposal.plan, planner=proposal.planner, remark=proposal.remark
+            )
         else:
             refusal = Refusal(code=Code.MALFORMED_PLAN, message=proposal.reason, field="plan")
             event = ev.PlannerFailed(
@@ -96,15 +115,18 @@ class PlannerDesk:
             )
         self._feed(proposal.mission, event)
 
-    def _question(self, mission: MissionState, feedback: Refusal | None) -> PlannerAsk:
+    def _question(self, mission: MissionState, feedback: Refusal | None, budget_s: float) -> PlannerAsk:
         world = self._world.snapshot(self._leases.held)
+        known = {n: s for n, s in world.values.items() if self._rules.crew.value(n) is not None}
         return PlannerAsk(
             mission=mission.id,
             attempt=mission.replans,
             request=mission.request,
+            budget_s=budget_s,
+            previous=mission.plan if feedback is not None else None,
             feedback=feedback,
             airborne=known_airborne(world),
-            values={name: stamped.reading.status for name, stamped in world.values.items()},
+            values={n: s.reading.status if s.reading.status in STATUSES else UNUSABLE for n, s in known.items()},
             requester_near=requester_near(world),
         )
 

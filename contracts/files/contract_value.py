@@ -9,9 +9,7 @@ from crew.contracts.files.file_model import advice, show
 from crew.contracts.files.source import Loc, Problems
 from crew.contracts.site import Crew
 from crew.contracts.skill import NOTHING, Entity, Param
-
-STATUSES = ("ok", "absent", "ambiguous")
-"""What the status of a run-time value may be."""
+from crew.contracts.snapshot import STATUSES
 
 _DOMAIN_SLOTS = {
     "place": PLACE_SLOTS,

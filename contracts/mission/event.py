@@ -26,6 +26,8 @@ class Proposed(Event, frozen=True, kw_only=True, tag="proposed"):
 
     plan: Plan
     planner: str = ""
+    remark: str = ""
+    """What a person should know about the proposal, such as who stands in for whom."""
 
 
 class PlannerFailed(Event, frozen=True, kw_only=True, tag="planner_failed"):

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 if TYPE_CHECKING:
+    from crew.actors.specs import PlannerChoice
     from crew.launch.options import LaunchOptions
 
 app = typer.Typer(
@@ -29,8 +30,13 @@ AsJson = Annotated[bool, typer.Option("--json", help="Print JSON for machines.")
 Map = Annotated[str | None, typer.Option("--map", help="The simulated site's map.")]
 Seed = Annotated[int | None, typer.Option(help="Seed of the simulation's noise.")]
 Speed = Annotated[str, typer.Option(help="Pace of the simulation: a multiple of real time, or max.")]
-Planner = Annotated[str, typer.Option(help="Who plans: embedded or script.")]
-Script = Annotated[str, typer.Option(help="JSON file with the plans of --planner script.")]
+Planner = Annotated[str, typer.Option(help="Who plans: embedded, anthropic, compatible, recorded or script.")]
+Script = Annotated[str, typer.Option(help="JSON file with the plans of --planner script or recorded.")]
+Model = Annotated[str, typer.Option(help="The language model's name at its endpoint.")]
+BaseUrl = Annotated[str, typer.Option("--base-url", help="Address of a Messages API, for --planner compatible.")]
+EndpointFile = Annotated[str, typer.Option("--endpoint", help="JSON file with the peculiarities of an endpoint.")]
+Context = Annotated[str, typer.Option(help="What a language model is told: none, registry or contracts.")]
+NoFallback = Annotated[bool, typer.Option("--no-fallback", help="No stand-in for a model that is unavailable.")]
 Fault = Annotated[list[str] | None, typer.Option("--fault", help="Inject a fault; may be given several times.")]
 Runs = Annotated[Path, typer.Option(help="Folder that runs are written to.")]
 Single = Annotated[bool, typer.Option("--single-process", help="Everything in one process, for a debugger.")]
@@ -45,6 +51,11 @@ def up(
     speed: Speed = "1",
     planner: Planner = "embedded",
     script: Script = "",
+    model: Model = "",
+    base_url: BaseUrl = "",
+    endpoint: EndpointFile = "",
+    context: Context = "contracts",
+    no_fallback: NoFallback = False,
     fault: Fault = None,
     port: Annotated[int, typer.Option(help="The router's TCP port on loopback; 0 takes a free one.")] = 7447,
     runs: Runs = Path("runs"),
@@ -53,7 +64,8 @@ def up(
     """Bring a crew up and keep it up until Ctrl-C."""
     from crew.cli.up import run_up
 
-    _end(run_up(_options(crew, map_, seed, speed, planner, script, fault, port, runs, single_process)))
+    planning = _planning(planner, script, model, base_url, endpoint, context, no_fallback)
+    _end(run_up(_options(crew, map_, seed, speed, planning, fault, port, runs, single_process)))
 
 
 @app.command()
@@ -65,6 +77,11 @@ def demo(
     speed: Speed = "max",
     planner: Planner = "embedded",
     script: Script = "",
+    model: Model = "",
+    base_url: BaseUrl = "",
+    endpoint: EndpointFile = "",
+    context: Context = "contracts",
+    no_fallback: NoFallback = False,
     fault: Fault = None,
     runs: Runs = Path("runs"),
     single_process: Single = False,
@@ -73,7 +90,8 @@ def demo(
     """Bring a crew up, carry out one request, bring it down. Never waits for a person."""
     from crew.cli.demo import run_demo
 
-    _end(run_demo(_options(crew, map_, seed, speed, planner, script, fault, 0, runs, single_process), request, as_json))
+    planning = _planning(planner, script, model, base_url, endpoint, context, no_fallback)
+    _end(run_demo(_options(crew, map_, seed, speed, planning, fault, 0, runs, single_process), request, as_json))
 
 
 @app.command()
@@ -204,6 +222,11 @@ def planner_try(
     crew: Annotated[str, typer.Option("--crew", help="Crew to plan for.")] = "air_ground",
     planner: Planner = "embedded",
     script: Script = "",
+    model: Model = "",
+    base_url: BaseUrl = "",
+    endpoint: EndpointFile = "",
+    context: Context = "contracts",
+    no_fallback: NoFallback = False,
     state: Annotated[
         list[str] | None, typer.Option("--state", help="Assumed state, such as iris.airborne=true.")
     ] = None,
@@ -212,7 +235,21 @@ def planner_try(
     """Plan a request and judge the plan, without any robot and without any network."""
     from crew.cli.planner import run_try
 
-    _end(run_try(text, crew, planner, script, tuple(state or ()), as_json))
+    planning = _planning(planner, script, model, base_url, endpoint, context, no_fallback)
+    _end(run_try(text, crew, planning, tuple(state or ()), as_json))
+
+
+@planner_app.command("prompt")
+def planner_prompt(
+    text: Annotated[str, typer.Argument(help="The request.")] = REQUEST,
+    crew: Annotated[str, typer.Option("--crew", help="Crew to plan for.")] = "air_ground",
+    context: Context = "contracts",
+    as_json: AsJson = False,
+) -> None:
+    """Print exactly what a language model would be shown."""
+    from crew.cli.planner import run_prompt
+
+    _end(run_prompt(text, crew, context, as_json))
 
 
 def _options(
@@ -220,8 +257,7 @@ def _options(
     map_: str | None,
     seed: int | None,
     speed: str,
-    planner: str,
-    script: str,
+    planning: "PlannerChoice",
     fault: list[str] | None,
     port: int,
     runs: Path,
@@ -235,11 +271,26 @@ def _options(
         seed=seed,
         faults=tuple(fault or ()),
         speed=parse_speed(speed),
-        planner=planner,
-        script=script,
+        planning=planning,
         port=port,
         runs=runs,
         single_process=single_process,
+    )
+
+
+def _planning(
+    planner: str, script: str, model: str, base_url: str, endpoint: str, context: str, no_fallback: bool
+) -> "PlannerChoice":
+    from crew.actors.specs import PlannerChoice
+
+    return PlannerChoice(
+        name=planner,
+        script=script,
+        model=model,
+        base_url=base_url,
+        profile=endpoint,
+        context=context,
+        fallback=not no_fallback,
     )
 
 

@@ -1,14 +1,17 @@
 """`crew planner try`: one request planned and judged, without any robot and without any network."""
 
+import os
 from collections.abc import Mapping, Sequence
 from typing import Any
 
 import msgspec
 
 from crew.actors.orchestrator.planning import requester_near
-from crew.actors.planner.process import make_backend
+from crew.actors.planner.backend import answer
+from crew.actors.planner.process import check_choice, make_backend
+from crew.actors.specs import PlannerChoice
 from crew.cli.output import coloured, plan_lines, say, say_json
-from crew.contracts.files.contract_value import STATUSES
+from crew.cli.session import run
 from crew.contracts.gate.authorize import Gate
 from crew.contracts.language.containment import check_reading
 from crew.contracts.language.lexicon import build_lexicon
@@ -18,9 +21,10 @@ from crew.contracts.mission.provenance import sources
 from crew.contracts.mission.validation import Validation, validate
 from crew.contracts.mission_state import MissionState
 from crew.contracts.plan import Plan
+from crew.contracts.render.prompt import Context, Facts, build_prompt, registry_digest
 from crew.contracts.site import Rules
 from crew.contracts.skill import NOTHING
-from crew.contracts.snapshot import Point, RobotState, Snapshot, Stamped, StampedValue, ValueReading
+from crew.contracts.snapshot import STATUSES, Point, RobotState, Snapshot, Stamped, StampedValue, ValueReading
 from crew.errors import UsageError, nearest
 from crew.library import load_rules
 from crew.messages import PlannedStep, PlannerAsk
@@ -38,10 +42,33 @@ class TryResult(msgspec.Struct, frozen=True, kw_only=True):
     verdict: Mapping[str, Any]
 
 
-def run_try(text: str, crew: str, planner: str, script: str, state: tuple[str, ...], as_json: bool) -> int:
+def run_try(text: str, crew: str, choice: PlannerChoice, state: tuple[str, ...], as_json: bool) -> int:
     """0 if the plan is accepted, 3 if it is refused or a person would be asked."""
+    return run(_try(text, crew, choice, state, as_json))
+
+
+def run_prompt(text: str, crew: str, context: str, as_json: bool) -> int:
+    """Print what a model would be shown, and the digests that travel with its proposal."""
+    check_choice(PlannerChoice(context=context))
     rules = load_rules(crew)
-    backend = make_backend(planner, rules, script)
+    prompt = build_prompt(text, Context(context), rules, Facts(), previous=None, feedback=None)
+    if as_json:
+        digests = {"prompt_digest": prompt.digest, "schema_digest": prompt.schema_digest}
+        say_json({**msgspec.to_builtins(prompt), **digests, "registry_digest": registry_digest(rules)})
+        return 0
+    say(coloured("--- system", "dim"))
+    say(prompt.system.rstrip())
+    say(coloured("--- tool", "dim"))
+    say(msgspec.json.format(msgspec.json.encode(prompt.tool)).decode())
+    for turn in prompt.turns:
+        say(coloured(f"--- {turn['role']}", "dim"))
+        say(turn["content"])
+    return 0
+
+
+async def _try(text: str, crew: str, choice: PlannerChoice, state: tuple[str, ...], as_json: bool) -> int:
+    rules = load_rules(crew)
+    backend = make_backend(choice, rules, os.environ)
     world = assumed(state, rules)
     reading = read_request(text, build_lexicon(rules))
     ask = PlannerAsk(
@@ -52,7 +79,7 @@ def run_try(text: str, crew: str, planner: str, script: str, state: tuple[str, .
         values={n: v.reading.status for n, v in world.values.items()},
         requester_near=requester_near(world),
     )
-    proposal = backend.propose(ask)
+    proposal = await answer(backend, ask, choice.name)
     mission = MissionState(id="try", request=text, reading=reading)
     verdict = None if proposal.plan is None else validate(proposal.plan, mission, world, rules, NOW_NS, Gate())
     accepted = verdict is not None and verdict.refusal is None and verdict.question is None

@@ -119,7 +119,7 @@ def _write_resolved(rules: Rules, options: LaunchOptions, run_folder: Path) -> N
     resolved = {
         "crew": msgspec.to_builtins(rules.crew),
         "contracts": msgspec.to_builtins(dict(rules.contracts)),
-        "options": {"speed": options.speed, "planner": options.planner},
+        "options": {"speed": options.speed, "planner": msgspec.to_builtins(options.planning)},
     }
     text = "# As resolved at the start of this run. Written as JSON, which YAML 1.2 reads.\n"
     (run_folder / "crew.yaml").write_text(text + json.dumps(resolved, indent=2) + "\n")

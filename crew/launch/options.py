@@ -4,6 +4,7 @@ from pathlib import Path
 
 import msgspec
 
+from crew.actors.specs import PlannerChoice
 from crew.errors import UsageError
 
 MAX_SPEED = 1000.0
@@ -17,8 +18,7 @@ class LaunchOptions(msgspec.Struct, frozen=True, kw_only=True):
     seed: int | None = None
     faults: tuple[str, ...] = ()
     speed: float = 1.0
-    planner: str = "embedded"
-    script: str = ""
+    planning: PlannerChoice = PlannerChoice()
     port: int = 7447
     """The router's TCP port on loopback; 0 takes a free one."""
     runs: Path = Path("runs")

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from crew.access import ROBOT_PREFIX, ROUTER, Role, identities
-from crew.actors.specs import GatewaySpec, OrchestratorSpec, PlannerSpec, RobotActorSpec
+from crew.actors.specs import PLANNER_KEYS, GatewaySpec, OrchestratorSpec, PlannerSpec, RobotActorSpec
 from crew.contracts.site import Rules
 from crew.home import Running
 from crew.launch.options import LaunchOptions
@@ -36,7 +36,7 @@ def process_table(
         run_folder=str(run_folder),
         home=str(home),
         epoch=epoch,
-        planner=options.planner,
+        planner=options.planning.name,
         simulated=True,
         operator_key=operator_key,
     )
@@ -56,13 +56,13 @@ def process_table(
         )
         for robot in rules.crew.robots
     ]
-    planner = PlannerSpec(rules=packed, link=running.link("planner"), planner=options.planner, script=options.script)
+    planner = PlannerSpec(rules=packed, link=running.link("planner"), choice=options.planning)
     return [
         Child(name="router", module="crew.router", spec=_router(rules, running), last=True),
         Child(name="simulation", module="crew.sim.process", spec=_simulation(rules, options, running, ports)),
         *robots,
         Child(name="orchestrator", module="crew.actors.orchestrator.process", spec=orchestrator),
-        Child(name="planner", module="crew.actors.planner.process", spec=planner),
+        Child(name="planner", module="crew.actors.planner.process", spec=planner, secrets=PLANNER_KEYS),
         Child(
             name="gateway",
             module="crew.actors.gateway.process",

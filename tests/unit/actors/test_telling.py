@@ -45,6 +45,7 @@ class Hall:
     def __init__(self, bus: MemoryBus, other: MemoryBus, fabric: MemoryFabric) -> None:
         self.fabric, self.other, self.clock = fabric, other, SimClock(seconds_ns(5.0))
         self.fed: list[ev.AnyEvent] = []
+        self.notes: list[tuple[str, str]] = []
         self.tasks: list[asyncio.Task[None]] = []
         rules = air_ground()
         self.announcer = Announcer(bus, KEYS, rules, self.clock)
@@ -61,6 +62,7 @@ class Hall:
             LeaseTable(),
             lambda _, event: self.fed.append(event),
             self.spawn,
+            lambda what, text: self.notes.append((what, text)),
         )
         self.spawn("", self.desk.run())
 

@@ -4,6 +4,7 @@ import json
 
 import pytest
 
+from crew.actors.specs import PlannerChoice
 from crew.cli.planner import assumed, run_try
 from crew.contracts.snapshot import Point
 from crew.errors import UsageError
@@ -13,7 +14,7 @@ CREW = "humanoid_quadruped"
 
 
 def tried(text: str, *state: str, capsys: pytest.CaptureFixture[str]) -> tuple[int, dict[str, object]]:
-    code = run_try(text, CREW, "embedded", "", state, True)
+    code = run_try(text, CREW, PlannerChoice(), state, True)
     return code, json.loads(capsys.readouterr().out)
 
 
