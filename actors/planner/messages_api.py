@@ -44,25 +44,17 @@ class Reply(msgspec.Struct, frozen=True, kw_only=True):
 
 
 class MessagesClient:
-    """A client of one endpoint. The key stays in here."""
+    """A client of one endpoint. The key stays in here. Raises ImportError where the vendor's package lacks."""
 
     def __init__(self, endpoint: Endpoint, key: str) -> None:
         import anthropic
 
-        profile = endpoint.profile
-        headers = dict(profile.headers) | ({profile.key_header: key} if profile.key_header else {})
-        self._endpoint = endpoint
-        self._client = anthropic.AsyncAnthropic(
-            api_key=key, base_url=endpoint.base_url, max_retries=0, default_headers=headers
-        )
-
-    async def close(self) -> None:
-        await self._client.close()
+        self._sdk = anthropic
+        self._endpoint, self._key = endpoint, key
 
     async def ask(self, prompt: Prompt, timeout_s: float) -> Reply:
         """One try. Raises Retry, PlannerUnavailable or PlanUnreadable; the caller bounds the time as a whole."""
-        import anthropic
-
+        anthropic = self._sdk
         try:
             message = await self._send(self._body(prompt), timeout_s)
         except anthropic.APIStatusError as error:
@@ -99,11 +91,20 @@ class MessagesClient:
         }
 
     async def _send(self, body: Mapping[str, Any], timeout_s: float) -> "Message":
-        if not self._endpoint.profile.stream:
-            answer: Message = await self._client.messages.create(**body, timeout=timeout_s)
-            return answer
-        async with self._client.messages.stream(**body, timeout=timeout_s) as stream:
-            return await stream.get_final_message()
+        profile = self._endpoint.profile
+        headers = dict(profile.headers) | ({profile.key_header: self._key} if profile.key_header else {})
+        async with self._sdk.AsyncAnthropic(
+            api_key=self._key,
+            base_url=self._endpoint.base_url,
+            max_retries=0,
+            timeout=timeout_s,
+            default_headers=headers,
+        ) as client:
+            if not profile.stream:
+                answer: Message = await client.messages.create(**body)
+                return answer
+            async with client.messages.stream(**body) as stream:
+                return await stream.get_final_message()
 
     def _refused(self, error: "anthropic.APIStatusError") -> PlannerUnavailable:
         status = error.status_code

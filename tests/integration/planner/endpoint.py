@@ -7,6 +7,8 @@ from contextlib import asynccontextmanager
 from dataclasses import dataclass, field
 from typing import Any
 
+from crew.clock import WALL
+
 HEADERS = {200: "OK", 401: "Unauthorized", 404: "Not Found", 429: "Too Many Requests", 500: "Internal Server Error"}
 
 
@@ -38,14 +40,21 @@ class ScriptedApi:
         self._replies = list(replies)
         self.asked: list[Asked] = []
         self.url = ""
+        self._over = asyncio.Event()
+        self._handlers: set[asyncio.Task[None] | None] = set()
+
+    async def close(self) -> None:
+        self._over.set()
+        await asyncio.gather(*(task for task in self._handlers if task is not None))
 
     async def handle(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
+        self._handlers.add(asyncio.current_task())
         try:
-            while (asked := await _read(reader)) is not None:
+            if (asked := await _read(reader)) is not None:
                 reply = self._replies[min(len(self.asked), len(self._replies) - 1)]
                 self.asked.append(asked)
-                await asyncio.sleep(reply.delay_s)
-                if reply.drop:
+                over = await WALL.race(self._over.wait(), reply.delay_s)
+                if over or reply.drop:
                     return
                 await _write(writer, reply)
         except ConnectionError:
@@ -64,7 +73,7 @@ async def scripted(*replies: Reply) -> AsyncIterator[ScriptedApi]:
         yield api
     finally:
         server.close()
-        server.close_clients()
+        await api.close()
 
 
 async def _read(reader: asyncio.StreamReader) -> Asked | None:
@@ -81,7 +90,7 @@ async def _read(reader: asyncio.StreamReader) -> Asked | None:
 async def _write(writer: asyncio.StreamWriter, reply: Reply) -> None:
     body = reply.body if isinstance(reply.body, bytes) else json.dumps(reply.body).encode()
     lines = [f"HTTP/1.1 {reply.status} {HEADERS.get(reply.status, 'Scripted')}"]
-    lines += [f"content-type: {reply.content_type}", f"content-length: {len(body)}"]
+    lines += [f"content-type: {reply.content_type}", f"content-length: {len(body)}", "connection: close"]
     lines += [f"{name}: {value}" for name, value in reply.headers.items()]
     writer.write("\r\n".join([*lines, "", ""]).encode() + body)
     await writer.drain()
