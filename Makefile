@@ -4,7 +4,7 @@ BIN := .venv/bin
 CREW ?= air_ground
 ARGS ?=
 
-.PHONY: help demo test check bench soak study clean
+.PHONY: help demo test check bench soak study smoke clean
 
 help:  ## this list
 	@grep -E '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):.*## */make \1\t/' | expand -t 14
@@ -30,6 +30,9 @@ soak: .venv/.ready  ## the long tests: those marked soak, and every property wit
 study: .venv/.ready  ## the evaluation (needs crew eval, which this version does not have yet)
 	@$(BIN)/crew eval --help >/dev/null 2>&1 || { echo "crew eval is not part of this version: no study was run" >&2; exit 2; }
 	$(BIN)/crew eval $(CREW) --arms all --planner embedded --seed 0 --out runs/study $(ARGS)
+
+smoke: .venv/.ready  ## ask the Messages API at CREW_PLANNER_URL for a few plans
+	@$(BIN)/python -m tests.smoke.local_model
 
 clean:  ## remove .venv, caches and build output; recorded runs stay
 	rm -rf .venv build dist robot_crew.egg-info

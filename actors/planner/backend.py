@@ -1,7 +1,6 @@
 """Backends of the planner: each turns a question into a proposal. None of them can reach a robot."""
 
 from collections.abc import Mapping, Sequence
-from pathlib import Path
 from typing import Protocol
 
 import msgspec
@@ -9,8 +8,7 @@ import msgspec
 from crew.actors.planner.embedded import Abstention, PlannerState, propose
 from crew.contracts.plan import Plan
 from crew.contracts.site import Rules
-from crew.errors import CrewError, UsageError
-from crew.library import read_text
+from crew.errors import CrewError
 from crew.messages import PlannerAsk, PlannerProposal
 
 
@@ -94,19 +92,3 @@ async def answer(backend: Backend, ask: PlannerAsk, planner: str) -> PlannerProp
 def proposal(ask: PlannerAsk, planner: str, plan: Plan | None, reason: str = "") -> PlannerProposal:
     """An answer to `ask`."""
     return PlannerProposal(mission=ask.mission, attempt=ask.attempt, planner=planner, plan=plan, reason=reason)
-
-
-def read_script(path: Path) -> list[Plan]:
-    """Plans from a JSON file. Raises UsageError."""
-    try:
-        return msgspec.json.decode(read_text(path), type=list[Plan])
-    except msgspec.MsgspecError as error:
-        raise UsageError(f"{path} is no list of plans: {error}") from error
-
-
-def read_recorded(path: Path) -> dict[str, list[Plan]]:
-    """Request to plans from a JSON file. Raises UsageError."""
-    try:
-        return msgspec.json.decode(read_text(path), type=dict[str, list[Plan]])
-    except msgspec.MsgspecError as error:
-        raise UsageError(f"{path} does not map requests to lists of plans: {error}") from error

@@ -8,6 +8,7 @@ from msgspec.structs import replace
 from crew.actors.planner.backend import PlannerUnavailable, proposal
 from crew.actors.planner.endpoint import Endpoint
 from crew.actors.planner.messages_api import Reply, Retry
+from crew.actors.planner.retrieval import Library
 from crew.actors.planner.submission import read_submission
 from crew.clock import SECOND_NS, WALL
 from crew.contracts.render.prompt import Context, Facts, Prompt, build_prompt, registry_digest
@@ -27,18 +28,18 @@ class Client(Protocol):
 
 
 class ModelBackend:
-    """Proposes what a model submits. `prune` narrows large rules to what a request may need."""
+    """Proposes what a model submits. Of a large library it is shown what the request may need."""
 
     def __init__(self, endpoint: Endpoint, client: Client, rules: Rules, context: Context) -> None:
-        self._endpoint, self._client, self._rules, self._context = endpoint, client, rules, context
+        self._endpoint, self._client, self._context = endpoint, client, context
+        self._library = Library(rules)
         self._registry_digest = registry_digest(rules)
 
     async def propose(self, ask: PlannerAsk) -> PlannerProposal:
         """Raises PlannerUnavailable within the question's budget, or PlanUnreadable."""
         facts = Facts(airborne=ask.airborne, values=ask.values, requester_near=ask.requester_near)
-        prompt = build_prompt(
-            ask.request, self._context, self._rules, facts, previous=ask.previous, feedback=ask.feedback
-        )
+        shown = self._library.narrow(ask.request)
+        prompt = build_prompt(ask.request, self._context, shown, facts, previous=ask.previous, feedback=ask.feedback)
         began_ns = WALL.now_ns()
         reply, tries = await self._within_budget(prompt, ask.budget_s - RESERVE_S)
         origin = ProposalOrigin(

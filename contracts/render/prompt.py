@@ -32,6 +32,25 @@ class Context(StrEnum):
     """The same, and the workflow contracts."""
 
 
+class Arm(StrEnum):
+    """The four conditions of the study: what the planner is told, and whether the gate is in force."""
+
+    LLM_ONLY = "llm-only"
+    SKILL_LIST = "skill-list"
+    RO_PROMPT = "ro-prompt"
+    RO = "ro"
+
+    @property
+    def context(self) -> Context:
+        told = {Arm.LLM_ONLY: Context.NONE, Arm.SKILL_LIST: Context.REGISTRY}
+        return told.get(self, Context.CONTRACTS)
+
+    @property
+    def enforced(self) -> bool:
+        """Whether the gate decides, and the replan is granted."""
+        return self is Arm.RO
+
+
 class Facts(msgspec.Struct, frozen=True, kw_only=True):
     """State that a planner may know: truth values and enumerated words under the crew's own names."""
 

@@ -8,7 +8,9 @@ import msgspec
 
 from crew.actors.orchestrator.planning import requester_near
 from crew.actors.planner.backend import answer
-from crew.actors.planner.process import check_choice, make_backend
+from crew.actors.planner.choice import check_choice
+from crew.actors.planner.process import make_backend
+from crew.actors.planner.retrieval import Library
 from crew.actors.specs import PlannerChoice
 from crew.cli.output import coloured, plan_lines, say, say_json
 from crew.cli.session import run
@@ -49,9 +51,9 @@ def run_try(text: str, crew: str, choice: PlannerChoice, state: tuple[str, ...],
 
 def run_prompt(text: str, crew: str, context: str, as_json: bool) -> int:
     """Print what a model would be shown, and the digests that travel with its proposal."""
-    check_choice(PlannerChoice(context=context))
+    check_choice(PlannerChoice(context=context), os.environ)
     rules = load_rules(crew)
-    prompt = build_prompt(text, Context(context), rules, Facts(), previous=None, feedback=None)
+    prompt = build_prompt(text, Context(context), Library(rules).narrow(text), Facts(), previous=None, feedback=None)
     if as_json:
         digests = {"prompt_digest": prompt.digest, "schema_digest": prompt.schema_digest}
         say_json({**msgspec.to_builtins(prompt), **digests, "registry_digest": registry_digest(rules)})

@@ -2,11 +2,13 @@
 
 import asyncio
 import json
+import os
 import time
 from collections.abc import AsyncIterator
 from contextlib import AsyncExitStack, asynccontextmanager
 from pathlib import Path
 
+from crew.actors.planner.choice import check_choice
 from crew.authority import establish
 from crew.bus.port import Bus
 from crew.bus.zenoh import ZenohBus
@@ -58,6 +60,7 @@ class LiveCrew:
 async def live_crew(options: LaunchOptions, home: Home) -> AsyncIterator[LiveCrew]:
     """Bring a crew up; yield it once a round trip through its keys has shown every robot; bring it down."""
     rules = resolve(options)
+    check_choice(options.planning, os.environ)
     establish(home.certificates(rules.crew.name), roles(rules))
     guests = f"tcp/127.0.0.1:{options.port or free_tcp_port()}"
     run_folder = new_run_folder(options.runs, rules.crew.name)
