@@ -123,7 +123,7 @@ def failure(kind: str, text: str) -> dict[str, Any]:
 
 def streamed(submitted: Any) -> Reply:
     """A tool call in pieces, as server-sent events."""
-    start = {
+    start: dict[str, Any] = {
         "type": "message_start",
         "message": {**message(stop_reason="tool_use"), "content": [], "stop_reason": None},
     }
