@@ -1,9 +1,9 @@
 """A contract as a Mermaid flowchart: steps as boxes, `after` as arrows."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 
-from crew.contracts.contract import Condition, Contract, Step
-from crew.contracts.render.wording import guard_words
+from crew.contracts.contract import Contract
+from crew.contracts.render.graph import Box, graph_of
 
 
 def contract_graph(contract: Contract) -> str:
@@ -12,49 +12,26 @@ def contract_graph(contract: Contract) -> str:
 
 
 def _lines(contract: Contract) -> Iterator[str]:
+    graph = graph_of(contract)
+    ids = {box.name: _id(box) for box in graph.boxes}
     yield "flowchart TD"
-    if contract.needs:
-        yield f'  start(["{_guards("needs", contract.needs)}"])'
-    yield from (f'  {_id(step)}["{_label(step)}"]{":::optional" if step.optional else ""}' for step in contract.steps)
-    if contract.complete:
-        yield f'  done(["{_guards("complete when", contract.complete)}"])'
-    yield from _arrows(contract)
-    if any(step.optional for step in contract.steps):
+    yield from (f"  {ids[box.name]}{_box(box)}" for box in graph.boxes)
+    for arrow in graph.arrows:
+        yield f"  {ids[arrow.source]} {'-.->' if arrow.dashed else '-->'} {ids[arrow.target]}"
+    if any(box.optional for box in graph.boxes):
         yield "  classDef optional stroke-dasharray: 5 5"
 
 
-def _arrows(contract: Contract) -> Iterator[str]:
-    by_name = {step.name: step for step in contract.steps}
-    followed = {name for step in contract.steps for name in step.after}
-    for step in contract.steps:
-        if contract.needs and not step.after:
-            yield f"  start --> {_id(step)}"
-        for name in step.after:
-            arrow = "-.->" if step.optional or by_name[name].optional else "-->"
-            yield f"  {_id(by_name[name])} {arrow} {_id(step)}"
-    for step in contract.steps:
-        if contract.complete and step.name not in followed and not step.optional:
-            yield f"  {_id(step)} --> done"
+def _box(box: Box) -> str:
+    if not box.role:
+        return f'(["{"<br/>".join([box.title, *map(_escape, box.lines)])}"])'
+    label = "<br/>".join([f"<b>{box.title}</b>", *map(_escape, box.lines)])
+    return f'["{label}"]{":::optional" if box.optional else ""}'
 
 
-def _label(step: Step) -> str:
-    skills = " or ".join(dict.fromkeys(call.skill for call in step.do))
-    lines = [f"<b>{step.name}</b>", f"{step.role}: {skills}"]
-    if step.needs:
-        lines.append(_guards("needs", step.needs))
-    if step.approval:
-        lines.append("a person approves")
-    return "<br/>".join(lines)
-
-
-def _guards(head: str, conditions: Iterable[Condition]) -> str:
-    """One guard a line."""
-    return "<br/>".join([head, *(_escape(guard_words(condition)) for condition in conditions)])
-
-
-def _id(step: Step) -> str:
+def _id(box: Box) -> str:
     """Prefixed, since Mermaid keeps words such as `end` for itself."""
-    return f"step_{step.name}"
+    return f"step_{box.name}" if box.role else box.name
 
 
 def _escape(text: str) -> str:

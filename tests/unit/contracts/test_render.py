@@ -4,6 +4,7 @@ import json
 import os
 from collections.abc import Callable
 from pathlib import Path
+from xml.etree import ElementTree
 
 import pytest
 
@@ -18,6 +19,7 @@ from crew.contracts.render.schema import (
     plan_tool,
     robot_schemas,
 )
+from crew.contracts.render.svg import contract_svg
 from crew.contracts.render.wording import clause, guard_words, listed
 from crew.contracts.site import Rules
 from crew.library import load_rules
@@ -49,7 +51,9 @@ SHIPPED = {
 
 
 @pytest.mark.parametrize(("crew", "name"), [(crew, name) for crew, names in SHIPPED.items() for name in names])
-@pytest.mark.parametrize(("render", "suffix"), [(contract_prose, "txt"), (contract_graph, "mmd")])
+@pytest.mark.parametrize(
+    ("render", "suffix"), [(contract_prose, "txt"), (contract_graph, "mmd"), (contract_svg, "svg")]
+)
 def test_shipped_contract(crew: str, name: str, render: Callable[[Contract], str], suffix: str) -> None:
     check_golden(f"{name}.{suffix}", render(load_rules(crew).contracts[name]))
 
@@ -58,6 +62,18 @@ def test_shipped_contract(crew: str, name: str, render: Callable[[Contract], str
 def test_a_step_with_approval(render: Callable[[Contract], str], suffix: str) -> None:
     text = edited(CARRY_TEXT, "words: [carry, bring]", "approval: true")
     check_golden(f"approval.{suffix}", render(carry(text)))
+
+
+def test_a_picture_is_well_formed_and_says_everything_that_the_diagram_says() -> None:
+    text = edited(CARRY_TEXT, "summary: Take", "summary: Take & <bring>")
+    contract = carry(edited(text, "words: [carry, bring]", "approval: true"))
+    root = ElementTree.fromstring(contract_svg(contract))
+    said = " ".join(node.text or "" for node in root.iter("{http://www.w3.org/2000/svg}text"))
+    for words in ("carry", "approach", "loader: pick_place", "tray of carrier is $object", "a person approves"):
+        assert words in said
+    title = root.find("{http://www.w3.org/2000/svg}title")
+    assert title is not None
+    assert (title.text or "").startswith("carry: Take & <bring> an object")
 
 
 ROBOTS = [("air_ground", "iris"), ("air_ground", "tb3"), ("humanoid_quadruped", "g1"), ("humanoid_quadruped", "go2")]

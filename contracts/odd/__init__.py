@@ -1,0 +1,1 @@
+"""What is legal in a contract but odd: said as warnings, never as refusals. Pure."""
