@@ -208,6 +208,36 @@ def contracts_show(
     _end(run_show(name, crew, form))
 
 
+@contracts_app.command("graph")
+def contracts_graph(
+    name: Annotated[str, typer.Argument(help="A contract of the crew.")],
+    crew: Annotated[str, typer.Option("--crew", help="Crew whose contract is drawn.")] = "air_ground",
+    form: Annotated[str, typer.Option("--as", help="mermaid or svg.")] = "mermaid",
+    to: Annotated[Path | None, typer.Option(help="File to write instead of printing.")] = None,
+) -> None:
+    """Draw a contract: its steps, their order, their guards."""
+    from crew.cli.contract_graph import run_graph
+
+    _end(run_graph(name, crew, form, to))
+
+
+@contracts_app.command("new")
+def contracts_new(
+    name: Annotated[str, typer.Argument(help="The contract's name.")],
+    do: Annotated[
+        list[str],
+        typer.Option(help="A step: role.skill, or role.skill(argument=value); give it once for each step, in order."),
+    ],
+    crew: Annotated[str, typer.Option("--crew", help="Crew whose skills are used.")] = "air_ground",
+    to: Annotated[Path | None, typer.Option(help="Folder to write into.")] = None,
+    as_json: AsJson = False,
+) -> None:
+    """Draft a contract from the skills that it shall use; it is checked and proved before it is written."""
+    from crew.cli.contract_new import run_new
+
+    _end(run_new(name, crew, do, to, as_json))
+
+
 @contracts_app.command("schema")
 def contracts_schema() -> None:
     """Print the JSON Schema of a contract file, for editors."""
