@@ -1,4 +1,4 @@
-"""The published JSON Schemas: an independent validator takes every shipped file, and refuses what the loader refuses."""
+"""The published JSON Schemas: an independent validator takes what is shipped and refuses what the loader refuses."""
 
 from pathlib import Path
 from typing import Any
@@ -57,5 +57,5 @@ def test_a_mistake_of_shape_is_refused_by_schema_and_loader_alike(old: str, new:
     assert [*CONTRACT.iter_errors(data(changed))]
     root = parse(changed, file="carry.yaml")
     problems = Problems("carry.yaml", root)
-    assert validate(ContractModel, root, problems) is None
+    validate(ContractModel, root, problems)
     assert problems.errors
