@@ -65,3 +65,14 @@ class GatewaySpec(msgspec.Struct, frozen=True, kw_only=True):
 
     crew: str
     link: Link
+
+
+class RecorderSpec(msgspec.Struct, frozen=True, kw_only=True):
+    """What the recorder's process is started with. `port` is where it serves the page on loopback; 0 serves nothing."""
+
+    rules: PackedRules
+    link: Link
+    run_folder: str
+    planner: str
+    simulated: bool
+    port: int = 0

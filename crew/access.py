@@ -66,6 +66,7 @@ TABLE = (
     Row("request", Way.ASK, (OPE, GUE), (GAT,)),
     Row("status", Way.ASK, (OPE, GUE, REC), (ORC,)),
     Row("mission/*/event", Way.PUT, (ORC, GAT), (OPE, GUE, REC)),
+    Row("mission/*/progress", Way.PUT, (ORC,), (OPE, REC)),
     Row("mission/*/confirm", Way.PUT, (OPE,), (ORC, REC)),
     Row("mission/*/cancel", Way.PUT, (OPE,), (ORC, REC)),
     # among the actors
@@ -85,6 +86,8 @@ TABLE = (
     Row("clock/ack/{own}", Way.PUT, (ROB, ORC), (SIM, REC)),
     Row("sim/truth", Way.PUT, (SIM,), (OPE, REC)),
     Row("sim/fault", Way.PUT, (OPE,), (SIM, REC)),
+    Row("sim/scene", Way.ASK, (OPE, REC), (SIM,)),
+    Row("sim/camera/*", Way.PUT, (SIM,), (OPE, REC)),
 )
 
 

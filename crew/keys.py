@@ -54,6 +54,10 @@ class Keys:
     def mission_event(self, mission: str) -> str:
         return self._mission(mission, "event")
 
+    def mission_progress(self, mission: str) -> str:
+        """The mission machine's own events, typed, for those who draw missions."""
+        return self._mission(mission, "progress")
+
     def mission_confirm(self, mission: str) -> str:
         return self._mission(mission, "confirm")
 
@@ -135,11 +139,24 @@ class Keys:
     def sim_fault(self) -> str:
         return f"crew/{self.crew}/sim/fault"
 
+    @property
+    def sim_scene(self) -> str:
+        """A query is answered with what the simulated world looks like."""
+        return f"crew/{self.crew}/sim/scene"
+
+    def sim_camera(self, robot: str) -> str:
+        """What a robot's simulated camera sees: the first thing that a busy bus may drop."""
+        return f"crew/{self.crew}/sim/camera/{checked_robot(robot)}"
+
     # Wildcards, for subscribers: `*` is one chunk and never meets one that begins with `@`.
 
     @property
     def mission_events(self) -> str:
         return f"crew/{self.crew}/mission/*/event"
+
+    @property
+    def mission_progresses(self) -> str:
+        return f"crew/{self.crew}/mission/*/progress"
 
     @property
     def mission_confirms(self) -> str:
@@ -168,6 +185,10 @@ class Keys:
     @property
     def all_alive(self) -> str:
         return f"crew/{self.crew}/*/alive"
+
+    @property
+    def sim_cameras(self) -> str:
+        return f"crew/{self.crew}/sim/camera/*"
 
     @property
     def clock_acks(self) -> str:

@@ -3,6 +3,8 @@
 from collections.abc import Mapping
 from typing import ClassVar
 
+import msgspec
+
 from crew.contracts.plan import ArgValue, Plan
 from crew.contracts.refusal import Refusal
 from crew.contracts.snapshot import FluentValue, Point, ValueReading
@@ -352,6 +354,9 @@ class CrewStatus(Message, frozen=True, kw_only=True):
 
 # --- simulation
 
+Pose = tuple[float, float, float, float, float, float, float]
+"""x, y, z in metres (world: ENU), and a quaternion x, y, z, w."""
+
 
 class ClockTick(Message, frozen=True, kw_only=True):
     """Mission time in simulation. `datagrams` is how many the simulation has sent to each robot's adapter."""
@@ -384,6 +389,47 @@ class SimTruth(Message, frozen=True, kw_only=True):
     at_ns: int
     poses: Mapping[str, tuple[float, float, float, float]]
     targets: Mapping[str, tuple[float, float, float]]
+    bodies: Mapping[str, Pose] = {}
+    """Every body of the scene that can move."""
+
+
+class SimShape(msgspec.Struct, frozen=True, kw_only=True):
+    """One solid part of a body. `pose` is relative to the body; `half` are half sizes along its own axes."""
+
+    body: str
+    kind: str
+    """`box`, `sphere`, `ellipsoid`, `cylinder`, `capsule` (its `half[2]` is that of the middle part), or `mesh`."""
+    half: tuple[float, float, float]
+    pose: Pose
+    rgba: tuple[float, float, float, float]
+    vertices: bytes = b""
+    """Of a mesh: x, y, z as 32-bit floats, little-endian."""
+    triangles: bytes = b""
+    """Of a mesh: three indices each, 32 bits, little-endian."""
+
+
+class SimScene(Message, frozen=True, kw_only=True):
+    """What the simulated world looks like: its shapes, and where the bodies are that never move."""
+
+    schema: ClassVar[str] = "crew.sim_scene"
+    version: ClassVar[int] = 1
+    shapes: tuple[SimShape, ...]
+    fixed: Mapping[str, Pose]
+    bodies: tuple[str, ...]
+    """Every body by its number, which is what a camera's pixels hold."""
+
+
+class SimImage(Message, frozen=True, kw_only=True):
+    """One frame of a robot's simulated camera: for each pixel the number of the body that it shows, plus one."""
+
+    schema: ClassVar[str] = "crew.sim_image"
+    version: ClassVar[int] = 1
+    robot: str
+    at_ns: int
+    width: int
+    height: int
+    pixels: bytes
+    """Row by row, one byte each; 0 where nothing but ground or sky is, 255 for every body beyond 253."""
 
 
 class SimFault(Message, frozen=True, kw_only=True):

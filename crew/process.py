@@ -20,7 +20,7 @@ from crew.errors import CrewError, UsageError
 T = TypeVar("T")
 
 STOP_GRACE_S = 0.5
-"""From being asked to stop to being gone, finished or not."""
+"""From being asked to stop to being gone, finished or not, unless the parent gives more."""
 EXIT_STUCK = 75
 """Exit code of a child that did not end within the grace."""
 
@@ -41,9 +41,11 @@ class Failed(msgspec.Struct, frozen=True, tag="failed"):
 class Stop(msgspec.Struct, frozen=True, tag="stop"):
     """The parent asks the child to end; the end of the stream means the same."""
 
+    grace_s: float = STOP_GRACE_S
+
 
 class ChildContext:
-    """What a child's `main` is given. It is cancelled when the parent asks for the end, and then has 0.5 s."""
+    """What a child's `main` is given. It is cancelled when the parent asks for the end, and then has its grace."""
 
     def __init__(self, control: socket.socket, spec_path: Path) -> None:
         self._control = control
@@ -123,28 +125,29 @@ def _watch(
     control: socket.socket, loop: asyncio.AbstractEventLoop, task: "asyncio.Future[None]", asked: threading.Event
 ) -> None:
     """Wait for the parent's word or its end, then ask politely, then leave. On a daemon thread."""
-    _await_stop(control)
+    grace_s = _await_stop(control)
     asked.set()
     try:
         loop.call_soon_threadsafe(task.cancel)
     except RuntimeError:
         if not loop.is_closed():
             raise
-    threading.Event().wait(STOP_GRACE_S)
+    threading.Event().wait(grace_s)
     _leave(EXIT_STUCK)
 
 
-def _await_stop(control: socket.socket) -> None:
-    stop = msgspec.json.encode(Stop())
+def _await_stop(control: socket.socket) -> float:
+    """The grace that the parent gives, once it asks for the end or is gone."""
     heard = b""
-    while stop not in heard:
+    while b"\n" not in heard:
         try:
             chunk = control.recv(4096)
         except OSError:
-            return
+            return STOP_GRACE_S
         if not chunk:
-            return
-        heard = (heard + chunk)[-4096:]
+            return STOP_GRACE_S
+        heard += chunk
+    return msgspec.json.decode(heard.partition(b"\n")[0], type=Stop).grace_s
 
 
 def _arguments() -> tuple[int, int, Path]:

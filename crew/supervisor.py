@@ -17,8 +17,8 @@ import msgspec
 from crew.errors import CrewError, UsageError
 from crew.process import STOP_GRACE_S, Failed, Ready, Stop
 
-KILL_AFTER_S = STOP_GRACE_S + 0.3
-"""How long a child may take to end before it is killed."""
+KILL_AFTER_S = 0.3
+"""How long beyond its grace a child may take to end before it is killed."""
 LAST_LINES = 8
 _LAST_BYTES = 4096
 
@@ -34,6 +34,12 @@ class Child(msgspec.Struct, frozen=True, kw_only=True):
     spec: Any = None
     last: bool = False
     secrets: tuple[str, ...] = ()
+    optional: bool = False
+    """Nobody waits until it is ready, and its failure is told as an exit, whenever it comes."""
+    grace_s: float = STOP_GRACE_S
+    """How long it may take to end when everybody waits for the end."""
+    ease_s: float = STOP_GRACE_S
+    """The same when nothing presses: nobody has interrupted anything."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,7 +89,7 @@ class Supervisor:
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
         try:
-            await self.stop()
+            await self.stop(pressed=kind is not None)
         finally:
             cancelled = isinstance(error, asyncio.CancelledError)
             await self._group.__aexit__(kind if cancelled else None, error if cancelled else None, trace)
@@ -98,10 +104,11 @@ class Supervisor:
         children = list(children)
         self._secrets |= {name for child in children for name in child.secrets}
         started = [self._spawn(child) for child in children]
-        await asyncio.wait(
-            [running.ready for running in started], timeout=ready_timeout_s, return_when=asyncio.FIRST_EXCEPTION
-        )
-        for running in sorted(started, key=lambda running: not running.ready.done()):
+        awaited = [running for running in started if not running.child.optional]
+        if awaited:
+            ready = [running.ready for running in awaited]
+            await asyncio.wait(ready, timeout=ready_timeout_s, return_when=asyncio.FIRST_EXCEPTION)
+        for running in sorted(awaited, key=lambda running: not running.ready.done()):
             if not running.ready.done():
                 what = f"{running.child.name} is not ready: nothing after {ready_timeout_s} s"
                 raise CrewError(f"{what}; {_where(running)}")
@@ -113,10 +120,10 @@ class Supervisor:
             await self._end([old])
         await self.start([child], ready_timeout_s=ready_timeout_s)
 
-    async def stop(self) -> None:
-        """End every child: the clients together, then the router; stuck ones are killed after 0.8 s."""
-        await self._end([running for running in self._running.values() if not running.child.last])
-        await self._end(list(self._running.values()))
+    async def stop(self, *, pressed: bool = True) -> None:
+        """End every child: the clients together, then those that are last; a stuck one is killed after its grace."""
+        await self._end([running for running in self._running.values() if not running.child.last], pressed)
+        await self._end(list(self._running.values()), pressed)
 
     def _spawn(self, child: Child) -> _Running:
         if child.name in self._running:
@@ -181,16 +188,17 @@ class Supervisor:
         if not running.ready.done():
             running.ready.set_exception(_never_ready(running, code))
             running.ready.exception()
-        elif not running.asked:
+        if not running.asked and (running.child.optional or running.ready.exception() is None):
             said = running.failure.text if running.failure is not None else _last_lines(running.log)
             self._on_exit(Exit(running.child.name, code, said))
 
-    async def _end(self, leaving: list[_Running]) -> None:
-        for running in leaving:
+    async def _end(self, leaving: list[_Running], pressed: bool = True) -> None:
+        graces_s = [running.child.grace_s if pressed else running.child.ease_s for running in leaving]
+        for running, grace_s in zip(leaving, graces_s, strict=True):
             running.asked = True
-            _ask_to_stop(running.control)
+            _ask_to_stop(running.control, grace_s)
         try:
-            async with asyncio.timeout(KILL_AFTER_S):
+            async with asyncio.timeout(max(graces_s, default=0.0) + KILL_AFTER_S):
                 await _all_ended(leaving)
         except TimeoutError:
             pass
@@ -213,9 +221,9 @@ async def _received(loop: asyncio.AbstractEventLoop, control: socket.socket) -> 
         return b""
 
 
-def _ask_to_stop(control: socket.socket) -> None:
+def _ask_to_stop(control: socket.socket, grace_s: float) -> None:
     try:
-        control.send(msgspec.json.encode(Stop()) + b"\n")
+        control.send(msgspec.json.encode(Stop(grace_s)) + b"\n")
     except OSError:
         return
 

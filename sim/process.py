@@ -12,6 +12,7 @@ from crew.messages import ClockAck, ClockTick, SimFault, SimTruth
 from crew.process import ChildContext, run_child
 from crew.sim.pace import Lockstep, Pace
 from crew.sim.scenes import SceneWorld, open_world
+from crew.sim.show import Show
 from crew.sim.spec import SimulationSpec
 
 SLICE_NS = 50_000_000
@@ -28,6 +29,7 @@ class Simulation:
 
     def __init__(self, bus: Bus, keys: Keys, world: SceneWorld, vehicles: Mapping[str, str], speed: float) -> None:
         self._world, self._vehicles, self._speed = world, vehicles, speed
+        self._show = Show(bus, keys, world, vehicles)
         acks: Events[Letter[ClockAck]] = Events(letters(ClockAck), capacity=256, on_lost=lambda _: None)
         self._lockstep = Lockstep(acks)
         self._pace = Pace()
@@ -67,11 +69,12 @@ class Simulation:
         self._ticks.put(ClockTick(slice=number, now_ns=self._world.time_ns, datagrams=sent))
         if number % TRUTH_EVERY == 0:
             self._truths.put(self._truth())
+        self._show.frames()
 
     def _truth(self) -> SimTruth:
         truth = self._world.scene_truth()
         poses = {robot: truth.poses[vehicle] for robot, vehicle in self._vehicles.items()}
-        return SimTruth(at_ns=truth.time_ns, poses=poses, targets=truth.targets)
+        return SimTruth(at_ns=truth.time_ns, poses=poses, targets=truth.targets, bodies=self._show.moving())
 
     async def _collect_datagrams(self) -> None:
         """Take in what the adapters sent before they acknowledged; loopback delivers at once, so one look is enough."""

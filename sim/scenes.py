@@ -1,13 +1,16 @@
 """The scenes that the simulation can host, by the name in a crew file. A scene is imported only once it is opened."""
 
 import importlib
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from types import TracebackType
 from typing import Any, Protocol, Self
 
 import msgspec
+import numpy as np
+from numpy.typing import NDArray
 
 from crew.errors import nearest
+from crew.sim.appearance import Appearance
 from crew.sim.config import WorldConfig
 from crew.sim.map import MapError
 from crew.sim.truth import SceneTruth
@@ -25,6 +28,14 @@ class Survey(msgspec.Struct, frozen=True):
     obstacles: tuple[tuple[float, float, float], ...]
 
 
+class Eye(Protocol):
+    """A camera as it is watched."""
+
+    def image(self) -> NDArray[np.int32]:
+        """The body seen by each pixel, row by row; -1 where nothing but ground or sky is."""
+        ...
+
+
 class SceneWorld(Protocol):
     """What the simulation's process asks of a world: it steps, answers its robots' links, and tells the truth."""
 
@@ -40,6 +51,14 @@ class SceneWorld(Protocol):
         ...
 
     def scene_truth(self) -> SceneTruth: ...
+
+    def appearance(self) -> Appearance:
+        """What the world looks like, for whoever draws it."""
+        ...
+
+    def cameras(self) -> Mapping[str, Eye]:
+        """The cameras by the vehicle that carries each; vehicles without one are left out."""
+        ...
 
     def set_fault(self, name: str, on: bool) -> None: ...
 

@@ -8,6 +8,7 @@ from typing import Any, Self
 
 import mujoco
 
+from crew.sim.appearance import Appearance
 from crew.sim.autopilot.ardupilot import ArduPilotRover
 from crew.sim.autopilot.autopilot import Autopilot
 from crew.sim.autopilot.link import Link, LinkCount, parse_endpoint
@@ -110,6 +111,14 @@ class World:
         return SceneTruth(
             time_ns=truth.time_ns, poses=poses, targets={"victim": (truth.victim_x_m, truth.victim_y_m, 0.0)}
         )
+
+    def appearance(self) -> Appearance:
+        """What the world looks like, for whoever draws it."""
+        return Appearance(self._model, self._data)
+
+    def cameras(self) -> dict[str, Camera]:
+        """The cameras by the vehicle that carries each."""
+        return {"iris": self._camera}
 
     def set_fault(self, name: str, on: bool) -> None:
         """Switch a fault while running. Raises ValueError with the valid names and the nearest for an unknown one."""

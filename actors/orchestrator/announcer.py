@@ -1,6 +1,7 @@
 """Tells people what happens to a mission, in sentences, as JSON on its event key."""
 
 import math
+import time
 from collections.abc import Mapping
 
 from crew.bus.port import Bus, Qos
@@ -12,6 +13,7 @@ from crew.contracts.site import Rules
 from crew.contracts.snapshot import ValueReading
 from crew.keys import Keys
 from crew.messages import MissionEvent, PlannedStep
+from crew.progress import MissionProgress
 from crew.wire import encode_json
 
 _OUTCOMES: Mapping[StepPhase, str] = {
@@ -34,10 +36,12 @@ class Announcer:
     def __init__(self, bus: Bus, keys: Keys, rules: Rules, clock: Clock) -> None:
         self._bus, self._keys, self._rules, self._clock = bus, keys, rules, clock
         self._numbers: dict[str, int] = {}
+        self._events: dict[str, int] = {}
         self._began: dict[str, int] = {}
 
     def after(self, old: MissionState, new: MissionState, event: ev.AnyEvent) -> None:
         """Say what an event has changed."""
+        self._publish_progress(old, event)
         self._say_event(old, new, event)
         if new.phase is not old.phase:
             self._say_phase(new)
@@ -49,6 +53,18 @@ class Announcer:
     def waiting(self, mission: MissionState, holders: list[str]) -> None:
         """The mission waits for robots that others hold."""
         self._put(mission, "phase", f"waiting for robots that {', '.join(holders)} holds")
+
+    def _publish_progress(self, old: MissionState, event: ev.AnyEvent) -> None:
+        number = self._events[old.id] = self._events.get(old.id, 0) + 1
+        progress = MissionProgress(
+            mission=old.id,
+            number=number,
+            at_ns=self._clock.now_ns(),
+            wall_ns=time.time_ns(),
+            began=old if number == 1 else None,
+            event=event,
+        )
+        self._bus.put(self._keys.mission_progress(old.id), progress, qos=Qos.EVENT)
 
     def _say_event(self, old: MissionState, new: MissionState, event: ev.AnyEvent) -> None:
         match event:
@@ -125,7 +141,8 @@ class Announcer:
             outcome=str(new.phase),
             final=True,
         )
-        self._numbers.pop(new.id, None)
+        for told in (self._numbers, self._events):
+            told.pop(new.id, None)
         self._began.pop(new.id, None)
 
     def steps(self, mission: MissionState) -> tuple[PlannedStep, ...]:

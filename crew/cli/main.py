@@ -40,6 +40,7 @@ NoFallback = Annotated[bool, typer.Option("--no-fallback", help="No stand-in for
 Fault = Annotated[list[str] | None, typer.Option("--fault", help="Inject a fault; may be given several times.")]
 Runs = Annotated[Path, typer.Option(help="Folder that runs are written to.")]
 Single = Annotated[bool, typer.Option("--single-process", help="Everything in one process, for a debugger.")]
+Record = Annotated[bool, typer.Option("--record/--no-record", help="Record the run as a page for crew replay.")]
 REQUEST = "Search the area and send the rover to the victim"
 
 
@@ -60,12 +61,14 @@ def up(
     port: Annotated[int, typer.Option(help="The router's TCP port on loopback; 0 takes a free one.")] = 7447,
     runs: Runs = Path("runs"),
     single_process: Single = False,
+    record: Record = True,
+    view: Annotated[bool, typer.Option("--view", help="Show the run in a browser as it happens.")] = False,
 ) -> None:
     """Bring a crew up and keep it up until Ctrl-C."""
     from crew.cli.up import run_up
 
     planning = _planning(planner, script, model, base_url, endpoint, context, no_fallback)
-    _end(run_up(_options(crew, map_, seed, speed, planning, fault, port, runs, single_process)))
+    _end(run_up(_options(crew, map_, seed, speed, planning, fault, port, runs, single_process, record), view))
 
 
 @app.command()
@@ -85,13 +88,15 @@ def demo(
     fault: Fault = None,
     runs: Runs = Path("runs"),
     single_process: Single = False,
+    record: Record = True,
     as_json: AsJson = False,
 ) -> None:
     """Bring a crew up, carry out one request, bring it down. Never waits for a person."""
     from crew.cli.demo import run_demo
 
     planning = _planning(planner, script, model, base_url, endpoint, context, no_fallback)
-    _end(run_demo(_options(crew, map_, seed, speed, planning, fault, 0, runs, single_process), request, as_json))
+    options = _options(crew, map_, seed, speed, planning, fault, 0, runs, single_process, record)
+    _end(run_demo(options, request, as_json))
 
 
 @app.command()
@@ -186,6 +191,20 @@ def verify(
     from crew.cli.runs import run_verify
 
     _end(run_verify(run, runs, key, as_json))
+
+
+@app.command()
+def replay(
+    run: Annotated[Path, typer.Argument(help="A run's folder, its name, or `last`.")],
+    runs: Runs = Path("runs"),
+    web: Annotated[bool, typer.Option("--web", help="Show it in a browser; prints the address.")] = False,
+    port: Annotated[int, typer.Option(help="Port of the web page on loopback; 0 takes a free one.")] = 0,
+    rebuild: Annotated[bool, typer.Option("--rebuild", help="Draw it anew from the journal.")] = False,
+) -> None:
+    """Show a run: the world, who did what, what was decided and why."""
+    from crew.cli.replay import run_replay
+
+    _end(run_replay(run, runs, web, port, rebuild))
 
 
 @app.command()
@@ -292,6 +311,7 @@ def _options(
     port: int,
     runs: Path,
     single_process: bool,
+    record: bool,
 ) -> "LaunchOptions":
     from crew.launch.options import LaunchOptions, parse_speed
 
@@ -305,6 +325,7 @@ def _options(
         port=port,
         runs=runs,
         single_process=single_process,
+        record=record,
     )
 
 

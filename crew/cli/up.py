@@ -2,11 +2,13 @@
 
 import asyncio
 import time
+from contextlib import AbstractContextManager, AsyncExitStack
 
 from crew.cli.follow import event_box
 from crew.cli.output import coloured, say, say_event
 from crew.cli.session import home, run
 from crew.cli.status import stop_line
+from crew.errors import UsageError
 from crew.launch.live import UNSECURED, LiveCrew, live_crew
 from crew.launch.options import LaunchOptions
 from crew.mailbox import Events, Letter, letters
@@ -18,27 +20,39 @@ LOSS = {
     "simulation": "the simulated robots are gone; missions halt",
     "planner": "no new mission can be planned",
     "gateway": "no new request can be taken",
+    "recorder": "the page of this run ends here; the journal goes on, and crew replay draws the rest from it",
 }
 
 
-def run_up(options: LaunchOptions) -> int:
+def run_up(options: LaunchOptions, view: bool = False) -> int:
     """0 after Ctrl-C or SIGTERM, 1 if a process died meanwhile."""
-    return run(_up(options))
+    return run(_up(options, view))
 
 
-async def _up(options: LaunchOptions) -> int:
+async def _up(options: LaunchOptions, view: bool) -> int:
     began = time.monotonic()
     losses = Losses()
     try:
         async with live_crew(options, home()) as crew:
             _introduce(crew, time.monotonic() - began)
-            async with asyncio.TaskGroup() as group:
+            async with AsyncExitStack() as stack, asyncio.TaskGroup() as group:
+                if view:
+                    say(f"  view       {stack.enter_context(live_page(crew.view_port))}")
                 group.create_task(_show_missions(crew))
                 group.create_task(_show_robots(crew))
                 group.create_task(losses.watch(crew))
     except asyncio.CancelledError:
         say("\nthe crew is down")
     return 1 if losses.count else 0
+
+
+def live_page(port: int) -> AbstractContextManager[str]:
+    """A browser's address of the page that the recorder serves. Raises UsageError if nothing is recorded."""
+    from crew.cli.viewer import web_viewer
+
+    if not port:
+        raise UsageError("--view shows what is recorded: leave out --no-record and --single-process, install [view]")
+    return web_viewer(f"rerun+http://127.0.0.1:{port}/proxy", 0)
 
 
 class Losses:

@@ -6,6 +6,7 @@ import os
 import time
 from collections.abc import AsyncIterator
 from contextlib import AsyncExitStack, asynccontextmanager
+from importlib.util import find_spec
 from pathlib import Path
 
 from crew.actors.planner.choice import check_choice
@@ -20,7 +21,7 @@ from crew.launch.options import LaunchOptions
 from crew.launch.ready import await_ready
 from crew.launch.single import SingleProcess
 from crew.launch.site import resolve
-from crew.launch.table import free_tcp_port, process_table, roles
+from crew.launch.table import RECORDER, free_tcp_port, process_table, roles
 from crew.messages import CrewStatus
 from crew.signing import load_or_create_key
 from crew.supervisor import Exit, Supervisor
@@ -50,6 +51,8 @@ class LiveCrew:
         """One process holds every role's key."""
         self.keys = Keys(rules.crew.name)
         self.status: CrewStatus
+        self.view_port = 0
+        """Where the recorder serves the page on loopback; 0 if nothing is recorded."""
 
     @property
     def name(self) -> str:
@@ -69,6 +72,7 @@ async def live_crew(options: LaunchOptions, home: Home) -> AsyncIterator[LiveCre
         endpoint = f"tls/127.0.0.1:{free_tcp_port()}"
         running = stack.enter_context(home.claim(rules.crew.name, run_folder, endpoint, guests))
         _write_resolved(rules, options, run_folder)
+        view_port = free_tcp_port() if _records(options) else 0
         children = process_table(
             rules,
             options,
@@ -78,6 +82,7 @@ async def live_crew(options: LaunchOptions, home: Home) -> AsyncIterator[LiveCre
             epoch=home.next_epoch(rules.crew.name),
             operator_key=load_or_create_key(home.keys, OPERATOR).public,
             orchestrator_key=load_or_create_key(home.keys, ORCHESTRATOR).public,
+            view_port=view_port,
         )
         if options.single_process:
             runner: Supervisor | SingleProcess = SingleProcess(run_folder)
@@ -87,17 +92,24 @@ async def live_crew(options: LaunchOptions, home: Home) -> AsyncIterator[LiveCre
         await runner.start(children, ready_timeout_s=READY_S)
         bus = await stack.enter_async_context(ZenohBus(running.link(OPERATOR)))
         crew = LiveCrew(rules, running, bus, exits, runner.pids, unsecured=options.single_process)
+        crew.view_port = view_port
         names = [r.name for r in rules.crew.robots]
         crew.status = await await_ready(bus, crew.keys, names, timeout_s=READY_S, died=lambda: _first_exit(exits))
         yield crew
 
 
+def _records(options: LaunchOptions) -> bool:
+    """Whether this run has a recorder: not in one process with robots, and not without the viewer's package."""
+    return options.record and not options.single_process and find_spec("rerun") is not None
+
+
 def _first_exit(exits: "asyncio.Queue[Exit]") -> str:
-    """Who has died already, in a sentence; empty if nobody has."""
-    if exits.empty():
-        return ""
-    first = exits.get_nowait()
-    return f"{first.name} died with code {first.code} while the crew came up: {first.said}"
+    """Who has died already, in a sentence; empty if nobody has whom the crew needs."""
+    while not exits.empty():
+        first = exits.get_nowait()
+        if first.name != RECORDER:
+            return f"{first.name} died with code {first.code} while the crew came up: {first.said}"
+    return ""
 
 
 def new_run_folder(runs: Path, crew: str) -> Path:

@@ -23,6 +23,8 @@ class LaunchOptions(msgspec.Struct, frozen=True, kw_only=True):
     """The router's TCP port on loopback; 0 takes a free one."""
     runs: Path = Path("runs")
     single_process: bool = False
+    record: bool = True
+    """Whether a recorder draws the run."""
     contracts: tuple[Path, ...] = ()
 
 

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from crew.access import ROBOT_PREFIX, ROUTER, Role, identities
-from crew.actors.specs import PLANNER_KEYS, GatewaySpec, OrchestratorSpec, PlannerSpec, RobotActorSpec
+from crew.actors.specs import PLANNER_KEYS, GatewaySpec, OrchestratorSpec, PlannerSpec, RecorderSpec, RobotActorSpec
 from crew.contracts.site import Rules
 from crew.home import Running
 from crew.launch.options import LaunchOptions
@@ -14,6 +14,12 @@ from crew.router import RouterSpec
 from crew.sim.config import WorldConfig
 from crew.sim.spec import SimulationSpec
 from crew.supervisor import Child
+
+RECORDER = "recorder"
+RECORDER_GRACE_S = 0.9
+"""What a recording may take to be closed after Ctrl-C: all must be gone within 2 s."""
+RECORDER_EASE_S = 8.0
+"""The same when a crew ends by itself: a recorder that is behind catches up."""
 
 
 def process_table(
@@ -26,6 +32,7 @@ def process_table(
     epoch: int,
     operator_key: bytes,
     orchestrator_key: bytes,
+    view_port: int = 0,
 ) -> list[Child]:
     """Every process of the crew, with what it is started with."""
     packed = pack(rules)
@@ -57,6 +64,14 @@ def process_table(
         for robot in rules.crew.robots
     ]
     planner = PlannerSpec(rules=packed, link=running.link("planner"), choice=options.planning)
+    recorder = RecorderSpec(
+        rules=packed,
+        link=running.link(RECORDER),
+        run_folder=str(run_folder),
+        planner=options.planning.name,
+        simulated=True,
+        port=view_port,
+    )
     return [
         Child(name="router", module="crew.router", spec=_router(rules, running), last=True),
         Child(name="simulation", module="crew.sim.process", spec=_simulation(rules, options, running, ports)),
@@ -68,7 +83,21 @@ def process_table(
             module="crew.actors.gateway.process",
             spec=GatewaySpec(crew=rules.crew.name, link=running.link("gateway")),
         ),
+        *([_recorder(recorder)] if view_port else []),
     ]
+
+
+def _recorder(spec: RecorderSpec) -> Child:
+    """Nobody waits for it, and it ends with the router, when it has heard the others' last words."""
+    return Child(
+        name=RECORDER,
+        module="crew.actors.recorder.process",
+        spec=spec,
+        last=True,
+        optional=True,
+        grace_s=RECORDER_GRACE_S,
+        ease_s=RECORDER_EASE_S,
+    )
 
 
 def roles(rules: Rules) -> list[str]:
