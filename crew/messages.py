@@ -417,6 +417,8 @@ class SimScene(Message, frozen=True, kw_only=True):
     fixed: Mapping[str, Pose]
     bodies: tuple[str, ...]
     """Every body by its number, which is what a camera's pixels hold."""
+    cameras: tuple[str, ...] = ()
+    """Robots that carry a camera."""
 
 
 class SimImage(Message, frozen=True, kw_only=True):

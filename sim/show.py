@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 
 import numpy as np
+from msgspec.structs import replace
 from numpy.typing import NDArray
 
 from crew.bus.port import Body, Bus, Qos, Sample
@@ -24,14 +25,14 @@ class Show:
     def __init__(self, bus: Bus, keys: Keys, world: SceneWorld, vehicles: Mapping[str, str]) -> None:
         self._world = world
         self._appearance = world.appearance()
-        scene = self._appearance.scene()
+        cameras = world.cameras()
+        self._cameras = {robot: cameras[vehicle] for robot, vehicle in vehicles.items() if vehicle in cameras}
+        scene = replace(self._appearance.scene(), cameras=tuple(self._cameras))
 
         async def answer(_: Sample) -> Body:
             return scene
 
         bus.queryable(keys.sim_scene, answer)
-        cameras = world.cameras()
-        self._cameras = {robot: cameras[vehicle] for robot, vehicle in vehicles.items() if vehicle in cameras}
         self._publishers = {robot: bus.publisher(keys.sim_camera(robot), qos=Qos.STATE) for robot in self._cameras}
         self._due_ns = self._due_wall_ns = 0
 

@@ -1,6 +1,6 @@
 """The page's layout. It is stored in the recording, so that any viewer shows it."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 import rerun as rr
@@ -14,16 +14,14 @@ SCENE, LANES, LOG, PROPOSAL, CONTRACT, CAMERA = "world", "lane", "log", "proposa
 CURVES = {"battery": "Battery, percent", "age": "Age of state, s", "latency": "Decision to accepted, ms"}
 
 
-def page(rules: Rules, cameras: Sequence[str], *, begin_s: float, end_s: float, lanes: Iterable[str]) -> rrb.Blueprint:
-    """The layout, with the lanes and curves showing the time from `begin_s` to `end_s`."""
-    span = rr.TimeRange(
-        start=rr.TimeRangeBoundary.absolute(seconds=begin_s), end=rr.TimeRangeBoundary.absolute(seconds=end_s)
-    )
-    axis = rrb.TimeAxis(view_range=span)
+def page(rules: Rules, cameras: Sequence[str]) -> rrb.Blueprint:
+    """The layout; lanes and curves show the whole run, however long it has become."""
+    whole = rr.TimeRange(start=rr.TimeRangeBoundary.infinite(), end=rr.TimeRangeBoundary.infinite())
+    axis = rrb.TimeAxis(view_range=whole)
     told = rrb.Vertical(
         rrb.TextDocumentView(origin=PROPOSAL, name="Proposal"),
         rrb.GraphView(origin=CONTRACT, name="Contract"),
-        row_shares=[3, 2],
+        row_shares=[2, 1],
     )
     seen = [rrb.Spatial2DView(origin=f"{CAMERA}/{robot}", name=f"Camera of {robot}") for robot in cameras]
     decided = rrb.TextLogView(
@@ -34,16 +32,14 @@ def page(rules: Rules, cameras: Sequence[str], *, begin_s: float, end_s: float, 
     heard = rrb.Vertical(decided, rrb.Tabs(*seen), row_shares=[3, 2]) if seen else decided
     return rrb.Blueprint(
         rrb.Vertical(
-            rrb.Horizontal(_scene(rules), told, heard, column_shares=[5, 4, 4]),
-            rrb.StateTimelineView(
-                contents=[f"/{LANES}/{lane}" for lane in lanes], name="Who does what, and what is held", time_view=axis
-            ),
+            rrb.Horizontal(_scene(rules), told, heard, column_shares=[9, 8, 9]),
+            rrb.StateTimelineView(origin=LANES, name="Who does what, and what is held", time_view=axis),
             rrb.Horizontal(
                 *(rrb.TimeSeriesView(origin=curve, name=name, axis_x=axis) for curve, name in CURVES.items())
             ),
             row_shares=[11, 4, 3],
         ),
-        rrb.TimePanel(timeline=TIMELINE, state="collapsed"),
+        rrb.TimePanel(timeline=TIMELINE, state="collapsed", play_state="following"),
         rrb.SelectionPanel(state="hidden"),
         rrb.BlueprintPanel(state="hidden"),
         auto_views=False,
@@ -66,7 +62,7 @@ def _scene(rules: Rules) -> rrb.Spatial3DView:
         background=rrb.Background(color=[18, 22, 27]),
         line_grid=rrb.LineGrid3D(visible=False),
         eye_controls=rrb.EyeControls3D(
-            position=(x - 0.25 * reach, y - 1.0 * reach, 0.85 * reach), look_target=(x, y - 0.04 * reach, 0.0)
+            position=(x - 0.1 * reach, y - 1.15 * reach, 1.0 * reach), look_target=(x, y - 0.05 * reach, 0.0)
         ),
     )
 

@@ -6,7 +6,6 @@ from typing import Any
 
 import numpy as np
 import rerun as rr
-import rerun.blueprint as rrb
 from numpy.typing import NDArray
 
 from crew.actors.recorder import blueprint
@@ -32,12 +31,23 @@ from crew.messages import SimImage, SimScene, SimTruth
 FLUSH_S = 0.2
 """What a killed recorder may lose is what it has not written for so long."""
 SERVE_LIMIT = "256MiB"
+LINGER, LINGER_NS = 0.05, 2_000_000_000
+"""How long the last states are shown beyond the end: a part of the run, and at least so long."""
 
 
 class Page:
     """One recording. Used by one thread; `close` must be called for a file that is whole."""
 
-    def __init__(self, rules: Rules, run: str, path: Path, *, port: int = 0, facts: Mapping[str, str] = {}) -> None:
+    def __init__(
+        self,
+        rules: Rules,
+        run: str,
+        path: Path,
+        *,
+        scene: SimScene | None = None,
+        port: int = 0,
+        facts: Mapping[str, str] = {},
+    ) -> None:
         self._rules = rules
         self._recording = rr.RecordingStream(
             f"crew run {run}", recording_id=run, batcher_config=rr.ChunkBatcherConfig(flush_tick=FLUSH_S)
@@ -46,18 +56,22 @@ class Page:
         self._recording.set_log_tick_enabled(False)
         self._lanes = lanes(rules)
         self._mission_lanes = {MISSION_LANE}
-        self._begin_ns = self._end_ns = self._lane_ns = -1
+        self._changed: set[str] = set()
+        self._begin_ns = self._end_ns = self._lane_ns = 0
         sinks: list[Any] = [rr.FileSink(path)]
         if port:
             sinks.append(rr.GrpcServerSink("127.0.0.1", port, server_memory_limit=SERVE_LIMIT))
-        self._recording.set_sinks(*sinks, default_blueprint=self._layout())
+        cameras = () if scene is None else scene.cameras
+        self._recording.set_sinks(*sinks, default_blueprint=blueprint.page(rules, cameras))
         self._scene = Scene(self._recording, rules)
         self._preamble(run, facts)
+        if scene is not None:
+            self._scene.shapes(scene)
 
     def write(self, stamp: Stamp, entry: Entry) -> None:
         """Draw one entry at its time."""
         self._note_time(stamp.at_ns, entry)
-        self._recording.set_time(TIMELINE, duration=stamp.at_ns / 1e9)
+        self._at(stamp.at_ns)
         match entry:
             case LaneChange(lane=lane, state=state):
                 self._lane(stamp.at_ns, lane, state)
@@ -76,22 +90,15 @@ class Page:
             case Whereabouts():
                 self._scene.whereabouts(stamp.at_ns, entry)
 
-    def scene(self, scene: SimScene) -> None:
-        """The simulated world's shapes."""
-        self._scene.shapes(scene)
-
     def truth(self, truth: SimTruth) -> None:
         """Where everything in the simulated world is; written with the next `flush`."""
         self._end_ns = max(self._end_ns, truth.at_ns)
         self._scene.truth(truth)
 
     def image(self, image: SimImage) -> None:
-        """One frame of a camera. The first of a camera makes room for it on the page."""
-        self._recording.set_time(TIMELINE, duration=image.at_ns / 1e9)
-        known = len(self._scene.cameras)
+        """One frame of a camera."""
+        self._at(image.at_ns)
         self._scene.image(image)
-        if len(self._scene.cameras) != known:
-            self._recording.send_blueprint(self._layout())
 
     def flush(self) -> None:
         """Hand everything on to the file and to whoever watches."""
@@ -99,10 +106,12 @@ class Page:
         self._recording.flush(timeout_sec=5.0)
 
     def close(self, closing: str = "") -> None:
-        """Show the whole run at once, and end the file with its index."""
+        """End the file with its index. The last states are shown a little longer, or nobody would see them."""
         self._scene.write()
+        self._at(self._end_ns + round(max(LINGER_NS, LINGER * (self._end_ns - self._begin_ns))))
+        for lane in self._changed:
+            self._recording.log(f"{LANES}/{lane}", rr.StateChange(state=""))
         self._recording.send_property("end", rr.AnyValues(how=closing or "finished"))
-        self._recording.send_blueprint(self._layout())
         self._recording.flush(timeout_sec=5.0)
         self._recording.disconnect()
 
@@ -111,8 +120,10 @@ class Page:
     def _preamble(self, run: str, facts: Mapping[str, str]) -> None:
         self._recording.send_recording_name(run)
         self._recording.send_property("run", rr.AnyValues(drop_untyped_nones=True, **facts))
+        self._at(0)
         for lane, states in self._lanes.items():
             self._configure(lane, states)
+            self._recording.log(f"{LANES}/{lane}", rr.StateChange(state=""))
         for robot, colour in colours(self._rules).items():
             for curve in blueprint.CURVES:
                 style = rr.SeriesPoints if curve == "latency" else rr.SeriesLines
@@ -126,24 +137,13 @@ class Page:
             f"{LANES}/{lane}", rr.StateConfiguration(values=values, labels=values, colors=shades), static=True
         )
 
-    def _layout(self) -> rrb.Blueprint:
-        robots = [lane for lane in self._lanes if lane != MISSION_LANE]
-        begin_s, end_s = max(0, self._begin_ns) / 1e9, max(0, self._end_ns) / 1e9
-        margin_s = max(1.0, 0.03 * (end_s - begin_s))
-        return blueprint.page(
-            self._rules,
-            sorted(self._scene.cameras) if hasattr(self, "_scene") else (),
-            begin_s=begin_s - margin_s,
-            end_s=max(end_s, begin_s + 10.0) + margin_s,
-            lanes=[*sorted(self._mission_lanes), *robots],
-        )
-
     # --- entries
 
     def _lane(self, at_ns: int, lane: str, state: str) -> None:
         """Lanes never go back in time, though a robot's own word may come later than what a mission knew."""
         self._lane_ns = max(self._lane_ns, at_ns)
-        self._recording.set_time(TIMELINE, duration=self._lane_ns / 1e9)
+        self._at(self._lane_ns)
+        self._changed.add(lane)
         if lane.startswith(MISSION_LANE) and lane not in self._mission_lanes:
             self._mission_lanes.add(lane)
             self._configure(lane, self._lanes[MISSION_LANE])
@@ -164,10 +164,13 @@ class Page:
         )
 
     def _note_time(self, at_ns: int, entry: Entry) -> None:
-        """The page begins with the first mission, however long the crew had been waiting for it."""
-        if self._begin_ns < 0 and isinstance(entry, LaneChange) and entry.lane == MISSION_LANE:
+        """A run's page begins with its first mission, however long the crew had been waiting for it."""
+        if not self._begin_ns and isinstance(entry, LaneChange) and entry.lane == MISSION_LANE:
             self._begin_ns = at_ns
         self._end_ns = max(self._end_ns, at_ns)
+
+    def _at(self, at_ns: int) -> None:
+        self._recording.set_time(TIMELINE, duration=np.timedelta64(at_ns, "ns"))
 
 
 def _shades(tones: Iterable[str]) -> NDArray[np.uint32]:

@@ -10,7 +10,7 @@ import time
 from collections.abc import Iterable
 from importlib.metadata import version
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from crew.actors.recorder.disk import DiskGuard
 from crew.actors.recorder.entry import Entry, Stamp
@@ -30,11 +30,12 @@ from crew.messages import RobotEvent, RobotState, RobotValue, SimImage, SimScene
 from crew.packed import unpack
 from crew.process import ChildContext, run_child
 from crew.progress import MissionProgress
-from crew.wire import decode
+from crew.wire import Message, decode
 
 if TYPE_CHECKING:
     from crew.actors.recorder.page import Page
 
+T = TypeVar("T")
 COMPACT_S = 0.6
 DRAW_EVERY_S = 0.1
 UP_S = 10.0
@@ -90,34 +91,35 @@ class Recorder:
             self._gone[robot] = WALL.now_ns()
 
     def draw(self, page: "Page") -> bool:
-        """Draw what waits, decisions first; whether anything was there."""
-        drawn = 0
-        for letter in self._ears.missions.take():
-            progress = letter.message
-            drawn += self._write(page, Stamp(progress.at_ns, progress.wall_ns), self._story.take(progress))
-        for robot_letter in self._ears.robots.take():
-            drawn += self._draw_robot(page, robot_letter)
-        for state in self._ears.states.take():
-            drawn += self._write(page, _stamp(state, state.message.at_ns), self._telemetry.state(state.message))
-        for truth in self._ears.truths.take():
-            self._now_ns = max(self._now_ns, truth.message.at_ns)
+        """Draw all that waits, in the order in which it happened; whether anything was there."""
+        told = [*_all(self._ears.missions), *_all(self._ears.robots), *_all(self._ears.states)]
+        truths, images = _all(self._ears.truths), _all(self._ears.images)
+        for stamp, message in sorted(map(_stamped, told), key=lambda item: item[0].at_ns):
+            self._write(page, stamp, self._entries(message))
+        for truth in truths:
             page.truth(truth.message)
-            drawn += 1
-        for image in self._ears.images.take():
+        for image in images:
             page.image(image.message)
-            drawn += 1
+        self._now_ns = max(self._now_ns, *(truth.message.at_ns for truth in truths), 0)
+        if told or truths or images:
+            return True
         self._draw_absence(page)
-        return drawn > 0
+        return False
 
-    def _draw_robot(self, page: "Page", letter: Letter[Any]) -> int:
-        match letter.message:
-            case RobotValue() as value:
-                return self._write(page, _stamp(letter, value.reading.stamp_ns), self._telemetry.value(value))
-            case event:
-                return self._write(page, _stamp(letter, event.at_ns), self._telemetry.event(event))
+    def _entries(self, message: Message) -> Iterable[Entry]:
+        match message:
+            case MissionProgress():
+                return self._story.take(message)
+            case RobotState():
+                return self._telemetry.state(message)
+            case RobotValue():
+                return self._telemetry.value(message)
+            case RobotEvent():
+                return self._telemetry.event(message)
+        return ()
 
     def _draw_absence(self, page: "Page") -> None:
-        """What nobody tells: who has fallen silent, who is gone."""
+        """What nobody tells: who has fallen silent, who is gone. Only who is not behind can know."""
         now = Stamp(self._now_ns, time.time_ns())
         self._write(page, now, self._telemetry.ages(self._now_ns))
         lost = [robot for robot, since_ns in self._gone.items() if WALL.now_ns() - since_ns > GONE_NS]
@@ -125,11 +127,10 @@ class Recorder:
             del self._gone[robot]
             self._write(page, now, self._telemetry.gone(robot))
 
-    def _write(self, page: "Page", stamp: Stamp, entries: Iterable[Entry]) -> int:
+    def _write(self, page: "Page", stamp: Stamp, entries: Iterable[Entry]) -> None:
         self._now_ns = max(self._now_ns, stamp.at_ns)
         for entry in entries:
             page.write(stamp, entry)
-        return 1
 
 
 async def main(context: ChildContext) -> None:
@@ -154,11 +155,11 @@ async def serve(spec: RecorderSpec, rules: Rules, bus: Bus, context: ChildContex
     try:
         scene = await _ask_scene(bus, keys) if spec.simulated else None
         await _crew_is_up(bus, keys, rules, ears)
-        opening = asyncio.ensure_future(asyncio.to_thread(_open_page, spec, rules))
-        await _record(spec, recorder, await asyncio.shield(opening), scene)
+        opening = asyncio.ensure_future(asyncio.to_thread(_open_page, spec, rules, scene))
+        await _record(spec, recorder, await asyncio.shield(opening))
     finally:
-        page = _open_page(spec, rules) if opening is None else await opening
-        _end(spec, recorder, page, scene, ears)
+        page = _open_page(spec, rules, scene) if opening is None else await opening
+        _end(spec, recorder, page, ears)
         token.close()
 
 
@@ -184,13 +185,13 @@ async def _all_there(states: KeepLatest[Letter[RobotState]], rules: Rules) -> No
             return
 
 
-def _open_page(spec: RecorderSpec, rules: Rules) -> "Page":
+def _open_page(spec: RecorderSpec, rules: Rules, scene: SimScene | None) -> "Page":
     from crew.actors.recorder.page import Page
 
     folder = Path(spec.run_folder)
     facts = {"version": version("robot-crew"), "rerun": version("rerun-sdk"), "crew": rules.crew.name}
     facts |= {"planner": spec.planner, "began": time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime())}
-    return Page(rules, folder.name, folder / FILE, port=spec.port, facts=facts)
+    return Page(rules, folder.name, folder / FILE, scene=scene, port=spec.port, facts=facts)
 
 
 async def _ask_scene(bus: Bus, keys: Keys) -> SimScene | None:
@@ -204,10 +205,8 @@ async def _ask_scene(bus: Bus, keys: Keys) -> SimScene | None:
     return None
 
 
-async def _record(spec: RecorderSpec, recorder: Recorder, page: "Page", scene: SimScene | None) -> None:
+async def _record(spec: RecorderSpec, recorder: Recorder, page: "Page") -> None:
     guard = DiskGuard(Path(spec.run_folder) / FILE)
-    if scene is not None:
-        page.scene(scene)
     while True:
         if recorder.draw(page):
             page.flush()
@@ -216,10 +215,8 @@ async def _record(spec: RecorderSpec, recorder: Recorder, page: "Page", scene: S
         await WALL.sleep(DRAW_EVERY_S)
 
 
-def _end(spec: RecorderSpec, recorder: Recorder, page: "Page", scene: SimScene | None, ears: Ears) -> None:
+def _end(spec: RecorderSpec, recorder: Recorder, page: "Page", ears: Ears) -> None:
     """Draw what was heard to the end, and leave a whole file. What is not done within the grace is done by a replay."""
-    if scene is not None:
-        page.scene(scene)
     while recorder.draw(page):
         pass
     page.close(f"{ears.missed} events were missed" if ears.missed else "")
@@ -227,9 +224,21 @@ def _end(spec: RecorderSpec, recorder: Recorder, page: "Page", scene: SimScene |
     compact([path], path, timeout_s=COMPACT_S)
 
 
-def _stamp(letter: Letter[Any], at_ns: int) -> Stamp:
-    """Mission time, and the wall's at which the letter arrived."""
-    return Stamp(at_ns, time.time_ns() - time.monotonic_ns() + letter.received_ns)
+def _all(box: Mailbox[T]) -> list[T]:
+    """Everything that waits now."""
+    found: list[T] = []
+    while batch := box.take():
+        found += batch
+    return found
+
+
+def _stamped(letter: Letter[Any]) -> tuple[Stamp, Message]:
+    """A message with its mission time, and the wall's: its own, or when it arrived."""
+    message = letter.message
+    if isinstance(message, MissionProgress):
+        return Stamp(message.at_ns, message.wall_ns), message
+    at_ns = message.reading.stamp_ns if isinstance(message, RobotValue) else message.at_ns
+    return Stamp(at_ns, time.time_ns() - time.monotonic_ns() + letter.received_ns), message
 
 
 def _events(kind: type[Any], capacity: int) -> Events[Any]:

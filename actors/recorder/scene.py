@@ -16,6 +16,8 @@ from crew.messages import Pose, SimImage, SimScene, SimShape, SimTruth
 Place = tuple[float, float, float]
 GOAL_M = 0.35
 FIX_M = 0.12
+NAME_UI = -5.0
+"""In the viewer's points, so that a small robot is found in a wide area."""
 LABEL_M = 0.9
 """How far above a robot its name stands."""
 STEP_M = 0.02
@@ -33,7 +35,6 @@ class Scene:
         self._tips: dict[str, Place] = {}
         self._written: dict[str, Place] = {}
         self._true: set[str] = set()
-        self.cameras: set[str] = set()
 
     def site(self) -> None:
         """What the crew file says of the place, and a mark for each robot."""
@@ -116,7 +117,6 @@ class Scene:
     def image(self, image: SimImage) -> None:
         """What a camera sees."""
         pixels = np.frombuffer(image.pixels, dtype=np.uint8).reshape(image.height, image.width)
-        self.cameras.add(image.robot)
         self._recording.log(f"{CAMERA}/{image.robot}", rr.SegmentationImage(pixels))
 
     def write(self) -> None:
@@ -164,7 +164,7 @@ class Scene:
                 positions=at + np.array([0, 0, LABEL_M], dtype=np.float32),
                 labels=[robot] * count,
                 colors=np.full(count, colour, dtype=np.uint32),
-                radii=[0.01] * count,
+                radii=[NAME_UI] * count,
             ),
         )
 
@@ -173,7 +173,7 @@ class Scene:
 
 
 def _times(stamped: Iterable[tuple[int, object]]) -> rr.TimeColumn:
-    return rr.TimeColumn(TIMELINE, duration=np.array([at_ns / 1e9 for at_ns, _ in stamped]))
+    return rr.TimeColumn(TIMELINE, duration=np.array([at_ns for at_ns, _ in stamped], dtype="timedelta64[ns]"))
 
 
 def _transform(pose: Pose) -> rr.Transform3D:

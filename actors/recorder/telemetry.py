@@ -40,7 +40,7 @@ class Telemetry:
         """Robots that have fallen silent: the age of their last word grows."""
         for robot, heard_ns in self._heard_ns.items():
             silent_ns = now_ns - heard_ns
-            if silent_ns > CURVE_EVERY_NS and self._is_due(robot, "curve", now_ns, CURVE_EVERY_NS):
+            if silent_ns > CURVE_EVERY_NS and self._is_due(robot, "silence", now_ns, CURVE_EVERY_NS):
                 yield Measure(f"age/{robot}", silent_ns / 1e9)
 
     def value(self, value: RobotValue) -> Iterator[Entry]:
