@@ -3,17 +3,20 @@
 import importlib
 from collections.abc import Callable, Mapping
 from types import TracebackType
-from typing import Any, Protocol, Self
+from typing import TYPE_CHECKING, Any, Protocol, Self
 
 import msgspec
-import numpy as np
-from numpy.typing import NDArray
 
 from crew.errors import nearest
-from crew.sim.appearance import Appearance
 from crew.sim.config import WorldConfig
 from crew.sim.map import MapError
 from crew.sim.truth import SceneTruth
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from crew.sim.appearance import Appearance
 
 SCENES = {
     "air_ground": ("crew.sim.world:World", "crew.sim.map:survey"),
@@ -31,7 +34,7 @@ class Survey(msgspec.Struct, frozen=True):
 class Eye(Protocol):
     """A camera as it is watched."""
 
-    def image(self) -> NDArray[np.int32]:
+    def image(self) -> "NDArray[np.int32]":
         """The body seen by each pixel, row by row; -1 where nothing but ground or sky is."""
         ...
 
@@ -52,7 +55,7 @@ class SceneWorld(Protocol):
 
     def scene_truth(self) -> SceneTruth: ...
 
-    def appearance(self) -> Appearance:
+    def appearance(self) -> "Appearance":
         """What the world looks like, for whoever draws it."""
         ...
 

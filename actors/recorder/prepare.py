@@ -50,14 +50,14 @@ def _drawn(folder: Path) -> Prepared:
 def _mended(folder: Path) -> Prepared:
     """Keep what a killed recorder wrote, and draw what came after from the journal."""
     from crew.actors.recorder.rebuild import rebuild
-    from crew.actors.recorder.remains import remains
+    from crew.actors.recorder.remains import NOTHING, remains
 
     path = _writable(folder)
     kept, rest = (path.with_name(f".{part}.{os.getpid()}.rrd") for part in ("kept", "rest"))
     try:
-        if not compact([folder / FILE], kept, timeout_s=COMPACT_S):
+        left = remains(kept) if compact([folder / FILE], kept, timeout_s=COMPACT_S) else NOTHING
+        if left is NOTHING:
             return _drawn(folder)
-        left = remains(kept)
         rebuild(folder / JOURNAL, rest, after_ns=left.told_ns)
         if not compact([kept, rest], path, timeout_s=COMPACT_S):
             return _drawn(folder)

@@ -138,7 +138,7 @@ async def main(context: ChildContext) -> None:
     os.nice(NICENESS)
     spec = context.spec(RecorderSpec)
     rules = unpack(spec.rules)
-    async with ZenohBus("recorder", [spec.router]) as bus:
+    async with ZenohBus(spec.link) as bus:
         await serve(spec, rules, bus, context)
 
 

@@ -20,14 +20,17 @@ class Remains(msgspec.Struct, frozen=True):
     told_ns: int
 
 
+NOTHING = Remains(-1, -1)
+
+
 def remains(path: Path) -> Remains:
-    """Read a recording as far as it can be read. Raises UsageError if nothing of it can."""
+    """Read a recording that has an index; NOTHING if it holds none of a run."""
     end_ns = told_ns = -1
     for entity, times_ns, _ in _rows(path):
         end_ns = max(end_ns, *times_ns)
         if entity.startswith(_TOLD):
             told_ns = max(told_ns, *times_ns)
-    return Remains(end_ns, told_ns)
+    return NOTHING if end_ns < 0 else Remains(end_ns, told_ns)
 
 
 def lane_changes(path: Path) -> dict[str, list[tuple[int, str]]]:
@@ -50,8 +53,10 @@ def log_lines(path: Path) -> list[tuple[int, str, str]]:
 
 
 def _rows(path: Path, content: str = "/**") -> Iterator[tuple[str, list[int], Any]]:
-    """Chunks that have mission time: the entity, the times, and the columns."""
+    """Chunks that have mission time: the entity, the times, and the columns. Raises UsageError for what is none."""
     try:
+        if not RrdReader(path).recordings():
+            return
         for chunk in RrdReader(path).stream().filter(content=content):
             if not chunk.is_static and TIMELINE in chunk.timeline_names and chunk.num_rows:
                 batch = chunk.to_record_batch()

@@ -28,6 +28,7 @@ WILD = (
 WRITERS = {
     "request": {"operator", "guest"},
     "mission_event": {"orchestrator", "gateway"},
+    "mission_progress": {"orchestrator"},
     "mission_confirm": {"operator"},
     "mission_cancel": {"operator"},
     "planner_ask": {"orchestrator"},
@@ -46,6 +47,7 @@ WRITERS = {
     "clock_ack": {"robot-iris"},
     "sim_truth": {"simulation"},
     "sim_fault": {"operator"},
+    "sim_camera": {"simulation"},
 }
 """Who may put on each key, written a second time on purpose. Keys that are not here are asked or announced only."""
 PUBLIC = {"mission_event", "robot_state"}
