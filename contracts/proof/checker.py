@@ -2,15 +2,17 @@
 
 from collections.abc import Callable, Iterable, Sequence
 
+from msgspec.structs import replace
+
 from crew.contracts.contract import Contract
 from crew.contracts.decision import Authorizer
 from crew.contracts.gate.authorize import Gate
 from crew.contracts.proof.case import Case, Refused, cases
 from crew.contracts.proof.graph import Graph
-from crew.contracts.proof.judge import judge
+from crew.contracts.proof.judge import Found, judge
 from crew.contracts.proof.model import Model
-from crew.contracts.proof.repair import with_repairs
-from crew.contracts.proof.report import Fallback, Finding, Report
+from crew.contracts.proof.repair import repaired
+from crew.contracts.proof.report import Fallback, Report
 from crew.contracts.site import Rules
 
 LIMIT = 200_000
@@ -36,14 +38,15 @@ def check(
     repair: bool = True,
 ) -> Report:
     """The verdict on one contract of the rules: its own plans, and those of others that dodge its `never`."""
-    checked = Search(rules, contract, limit, progress, gate or Gate())
-    report = checked.report()
-    if report.findings and repair:
-        found = with_repairs(
-            report, rules, lambda changed: check(changed, contract, limit=limit, gate=gate, repair=False)
-        )
-        return report if found is None else found
-    return report
+    search = Search(rules, contract, limit, progress, gate or Gate())
+    report = search.report()
+    if not repair or report.bound_reached:
+        return report
+
+    def again(changed: Rules) -> Report:
+        return check(changed, contract, limit=limit, gate=gate, repair=False)
+
+    return replace(report, findings=tuple(repaired(found, report, rules, again) for found in search.found))
 
 
 class Search:
@@ -54,7 +57,7 @@ class Search:
             raise ValueError(f"no contract {name!r} among {', '.join(rules.contracts)}")
         self._rules, self._limit, self._progress, self._gate = rules, limit, progress, gate
         self._contract = rules.contracts[name]
-        self._graphs: list[Graph] = []
+        self.found: list[Found] = []
         self._refused: list[Refused] = []
         self._states = 0
         self._bound = False
@@ -63,18 +66,18 @@ class Search:
         everything = list(self._rules.contracts.values())
         own = self._explore(self._contract, everything)
         dodging = self._dodging()
-        findings = judge(self._contract, own, dodging, self._refused, self._rules)
+        self.found = judge(self._contract, own, dodging, self._refused)
         graphs = [*own, *dodging]
         return Report(
             contract=self._contract.name,
-            proved=not findings and not self._bound,
+            proved=not self.found and not self._bound,
             bound_reached=self._bound,
             limit=self._limit,
             plans=len(own),
             states=sum(len(graph.reached) for graph in graphs),
             transitions=sum(graph.transitions for graph in graphs),
             decisions=sum(graph.model.desk.asked for graph in graphs),
-            findings=tuple(findings),
+            findings=tuple(found.finding for found in self.found),
             fallbacks=tuple(sorted(fallbacks(own, self._rules))),
         )
 
@@ -129,6 +132,3 @@ def _behaviours(robot: str, role: str, why: str, graph: Graph, rules: Rules) -> 
     if why == "robot_leased":
         return {"the mission that holds it: its own contract"}
     return {f"on_link_loss: {text}" for text in (kind.idle_on_link_loss, *(s.on_link_loss for s in skills))}
-
-
-__all__ = ["Finding", "check", "check_all"]

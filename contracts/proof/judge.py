@@ -1,34 +1,69 @@
 """From explored graphs to findings: one for each property that does not hold, with its shortest story."""
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from typing import NamedTuple
 
 from crew.contracts.contract import CallPattern, Contract, Step
 from crew.contracts.mission_state import Phase
 from crew.contracts.proof.case import Refused
 from crew.contracts.proof.graph import Broken, Graph
+from crew.contracts.proof.never import Watch
 from crew.contracts.proof.report import Finding
 from crew.contracts.proof.story import story
 from crew.contracts.proof.trouble import Note, Trouble
-from crew.contracts.site import Rules
+
+
+class Found(NamedTuple):
+    """A finding, with what a repair has to know of it."""
+
+    finding: Finding
+    watch: Watch | None = None
+    roles: Mapping[str, str] | None = None
 
 
 def judge(
-    contract: Contract, own: Sequence[Graph], dodging: Sequence[Graph], refused: Sequence[Refused], rules: Rules
-) -> list[Finding]:
+    contract: Contract, own: Sequence[Graph], dodging: Sequence[Graph], refused: Sequence[Refused]
+) -> list[Found]:
     """Every finding; the worst first."""
-    found = [*_broken(own, contract), *_broken(dodging, contract, only_never=True)]
+    broken = [*_broken(own), *_broken(dodging, only_never=True)]
+    hopeless = list(_contradictory(own))
+    told = {finding.subject for finding in hopeless}
+    kept = [f for f in broken if f.finding.rule != "never" or f.finding.subject not in told]
+    return [*kept, *(Found(finding) for finding in (*hopeless, *_unfinished(contract, own, refused)))]
+
+
+def _unfinished(contract: Contract, own: Sequence[Graph], refused: Sequence[Refused]) -> Iterator[Finding]:
+    """What never happens although it should."""
     if not own:
         why = refused[0].why if refused else "its steps and roles allow none"
         message = f"no plan of {contract.name} gets through: {why}"
-        return [*found, Finding(rule="no_plan", message=message, where=(_at(contract, contract.steps[0].line),))]
+        where = (_at(contract, contract.steps[0].line),)
+        yield Finding(rule="no_plan", message=message, where=where, plan_of=contract.name)
+        return
     dead = list(_dead_steps(contract, own, refused))
-    found += dead
-    found += _stuck(own, contract)
-    found += () if dead else _incompletable(contract, own)
-    return found
+    yield from [finding for finding in dead if finding.rule != "unreached_step"] or dead
+    yield from _stuck(own, contract)
+    yield from () if dead else _incompletable(contract, own)
 
 
-def _broken(graphs: Sequence[Graph], contract: Contract, *, only_never: bool = False) -> Iterator[Finding]:
+def _contradictory(graphs: Sequence[Graph]) -> Iterator[Finding]:
+    """Steps that can start in no state at all without breaking a `never`."""
+    seen: set[str] = set()
+    for graph in graphs:
+        for item in graph.model.instance.steps:
+            watches = graph.model.desk.watches(item.call)
+            if item.step in seen or not graph.model.is_hopeless(item.step):
+                continue
+            seen.add(item.step)
+            contract = graph.model.contract
+            step = contract.step(item.step)
+            lines = tuple(dict.fromkeys(watch.where for watch in watches))
+            message = f"step {item.step} can start in no state: whatever holds, one of {' and '.join(lines)} forbids it"
+            where = (*lines, _at(contract, 0 if step is None else step.line))
+            yield Finding(rule="contradictory", message=message, where=where, subject=item.step, plan_of=contract.name)
+
+
+def _broken(graphs: Sequence[Graph], *, only_never: bool = False) -> Iterator[Found]:
     """Troubles met in transitions, each property once, by the shortest story of all plans."""
     best: dict[tuple[str, str, str], tuple[tuple[str, ...], Broken, Graph]] = {}
     for graph in graphs:
@@ -42,7 +77,7 @@ def _broken(graphs: Sequence[Graph], contract: Contract, *, only_never: bool = F
                 best[key] = (told, broken, graph)
     for told, broken, graph in best.values():
         trouble = broken.trouble
-        yield Finding(
+        finding = Finding(
             rule=trouble.rule,
             message=trouble.message,
             where=_lines(trouble, graph.model.contract),
@@ -50,6 +85,7 @@ def _broken(graphs: Sequence[Graph], contract: Contract, *, only_never: bool = F
             subject=trouble.subject,
             plan_of=graph.model.contract.name,
         )
+        yield Found(finding, trouble.watch, graph.model.instance.roles)
 
 
 def _lines(trouble: Trouble, contract: Contract) -> tuple[str, ...]:
@@ -96,7 +132,8 @@ def _never_sent(contract: Contract, step: Step, label: str, graphs: Sequence[Gra
     """A step that the gate always refuses: told by the shortest way to a refusal of a world otherwise in order."""
     asked = [(g, *g.refused[step.name]) for g in graphs if step.name in g.refused]
     if not asked:
-        return _dead(contract, step, f"step {label} is never reached: what comes before it is never done")
+        why = f"step {label} is never reached: what comes before it is never done"
+        return _dead(contract, step, why, "unreached_step")
     stories = []
     for graph, state, decision, notes in asked:
         assert decision.refusal is not None
@@ -104,8 +141,8 @@ def _never_sent(contract: Contract, step: Step, label: str, graphs: Sequence[Gra
         earlier = [note for note in notes if note.who != step.name]
         end = f"So step {label} is never sent, whatever the robots tell"
         told = story(graph.model, [*graph.path(state), *earlier, refusal], end)
-        stories.append((len(told), told, decision.refusal.message))
-    _, told, why = min(stories)
+        stories.append((told, decision.refusal.message))
+    told, why = min(stories, key=lambda item: len(item[0]))
     return _dead(contract, step, f"step {label} is never sent: {why}", told=told)
 
 
@@ -141,8 +178,7 @@ def _variant(graph: Graph) -> str:
 
 
 def _incomplete(contract: Contract, variant: str, graphs: Sequence[Graph]) -> Finding:
-    found = sorted(_ways_to_fail(graphs), key=lambda item: len(item[0]))
-    told, why = found[0] if found else ((), "the last step is never done")
+    told, why = min(_ways_to_fail(graphs), key=lambda item: len(item[0]), default=((), "the last step is never done"))
     for_what = f" for {variant}" if variant else ""
     line = contract.complete[0].line if contract.complete else contract.steps[0].line
     message = f"no mission of {contract.name} can complete{for_what}: {why}"
@@ -159,8 +195,14 @@ def _ways_to_fail(graphs: Sequence[Graph]) -> Iterator[tuple[tuple[str, ...], st
                     if move.notes[0].what == "incomplete":
                         end = "So the mission never completes, although every step was done"
                         yield story(graph.model, [*graph.path(state), *move.notes], end), move.notes[0].why
+        for name, (state, decision, notes) in graph.refused.items():
+            if name not in graph.sent and decision.refusal is not None:
+                earlier = [note for note in notes if note.who != name]
+                refusal = Note("refused", name, decision.call, (), decision.refusal.message)
+                end = f"So step {name} is never sent, and the mission never completes"
+                yield story(graph.model, [*graph.path(state), *earlier, refusal], end), decision.refusal.message
 
 
-def keys(findings: Iterable[Finding]) -> set[tuple[str, str, str]]:
+def key(finding: Finding) -> tuple[str, str, str]:
     """What tells findings apart, whatever their words."""
-    return {(f.rule, f.subject, f.plan_of) for f in findings}
+    return finding.rule, finding.subject, finding.plan_of

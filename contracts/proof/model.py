@@ -289,11 +289,19 @@ class Model:
                 now = self._possible(mission, fluents)
                 reads = sorted({var for var, _ in watch.asks()})
                 offers = [sorted(now[v], key=str) if v in others else [facts[v]] for v in reads]
-                for values in product(*offers):
-                    world = dict(zip(reads, values, strict=True))
-                    if self.oracle.broken(watch, world):
-                        yield Trouble("never", f"{call} starts although {watch.never.why}", name, watch)
-                        break
+                worlds = [dict(zip(reads, values, strict=True)) for values in product(*offers)]
+                if any(self.oracle.broken(watch, world) for world in worlds):
+                    beside = "" if len(worlds) == 1 else ", at the same moment as what goes on beside it"
+                    yield Trouble("never", f"{call} starts{beside}: {watch.never.why}", name, watch)
+
+    def is_hopeless(self, step: str) -> bool:
+        """Whether the declared properties leave no state in which a step may start."""
+        watches = self.desk.watches(self.frame.calls[step])
+        if len(watches) < 2:
+            return False
+        cone = Cone((ask for watch in watches for ask in watch.asks()), (), self.ground)
+        worlds = [dict(world.facts) for world in cone.worlds({})]
+        return all(any(self.oracle.broken(watch, world) for watch in watches) for world in worlds)
 
     # --- the machine's side of the bargain
 

@@ -25,7 +25,7 @@ EARLIER_NS = NOW_NS - 5 * SECOND_NS // 2
 
 ELSEWHERE = "elsewhere"
 NOTHING = "none"
-OTHER_THING = "another thing"
+OTHER_THING = "something else"
 CALM: Mapping[str, FluentValue] = {"bool": False, "place": ELSEWHERE, "object": NOTHING, "number": 50.0}
 """What a fluent is that nobody asks for."""
 
