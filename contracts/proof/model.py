@@ -64,6 +64,7 @@ class Model:
         self._while = {name: meanwhile(call, self.ground) for name, call in self.frame.calls.items()}
         self._safe_while = {role: meanwhile(call, self.ground) for role, call in self.frame.safe_calls.items()}
         self._confirmable: dict[str, str] = {}
+        self._safety = {role: self.oracle.safety(role) for role in self.frame.roles}
         self._complete_conditions = [
             c
             for c in self.contract.complete
@@ -192,19 +193,20 @@ class Model:
             note = Note("make_safe", role, decision.call, world.facts)
             narrowed = state._replace(fluents=self._narrow(state.fluents, world.alike, mission))
             yield from self._tell(narrowed, mission, event, note, ruling.troubles)
-        for world, decision in ruling.refused:
+        yield from self._not_commanded(state, mission, role, ruling)
+
+    def _not_commanded(self, state: State, mission: MissionState, role: str, ruling: Ruling) -> Iterator[Move]:
+        """The safe call is refused: fine only if the robot is out of reach. The machine does the same for all codes."""
+        away = [(w, d) for w, d in ruling.refused if d.refusal is not None and d.refusal.code in CANNOT_BE_COMMANDED]
+        others = [item for item in ruling.refused if item not in away]
+        fallbacks = tuple((role, str(d.refusal.code)) for _, d in away if d.refusal is not None)
+        for world, decision in (*away[:1], *others):
             assert decision.refusal is not None
-            event = ev.Decided(at_ns=NOW_NS, decision=decision)
             note = Note("not_commanded", role, decision.call, world.facts, decision.refusal.message)
-            away = decision.refusal.code in CANNOT_BE_COMMANDED
-            troubles = (
-                ()
-                if away
-                else (Trouble("unsafe_end", f"{decision.call} is refused: {decision.refusal.message}", role),)
-            )
-            for move in self._tell(state, mission, event, note):
-                fallbacks = ((role, str(decision.refusal.code)),) if away else ()
-                yield move._replace(troubles=(*move.troubles, *troubles), fallbacks=fallbacks)
+            wrong = Trouble("unsafe_end", f"{decision.call} is refused: {decision.refusal.message}", role)
+            troubles = () if decision.refusal.code in CANNOT_BE_COMMANDED else (wrong,)
+            for move in self._tell(state, mission, ev.Decided(at_ns=NOW_NS, decision=decision), note, troubles):
+                yield move._replace(fallbacks=fallbacks)
 
     def _settle_role(self, state: State, mission: MissionState, event: ev.AnyEvent, note: Note) -> Iterator[Move]:
         """A role that is left alone must be safe."""
@@ -389,12 +391,12 @@ class Model:
         return tuple(left)
 
     def _forget(self, mission: MissionState, fluents: Fluents) -> Fluents:
-        """In an early end only the robots count that are not safe yet."""
+        """In an early end only that counts which tells whether roles are safe that were not settled yet."""
         if mission.phase not in ENDING:
             return fluents
-        open_robots = {robot for role, robot in self.instance.roles.items() if role not in mission.settled}
+        counting = {var for role in self.frame.roles if role not in mission.settled for var in self._safety[role]}
         pairs = zip(self.ground.fluents, fluents, self._any, strict=True)
-        return tuple(now if var.owner in open_robots else anything for var, now, anything in pairs)
+        return tuple(now if var in counting else anything for var, now, anything in pairs)
 
 
 def _options(name: str, ruling: Ruling) -> list[Option]:

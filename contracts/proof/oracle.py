@@ -98,6 +98,16 @@ class Oracle:
                 return f"{robot}.{fluent} may be {seen}, not {str(value).lower()}"
         return ""
 
+    def safety(self, role: str) -> frozenset[Var]:
+        """What tells whether a role is safe, and what its safe call asks for."""
+        robot = self._instance.roles[role]
+        declared = self._contract.role(role)
+        safe = None if declared is None else declared.safe
+        if safe is None:
+            return frozenset(Var(robot, fluent) for fluent in self._left_behind(role))
+        needs = skill_of(Call(robot, safe.by), self._ground.rules).needs
+        return frozenset(Var(robot, fluent) for fluent in (*safe.reach, *needs))
+
     def _left_behind(self, role: str) -> Mapping[str, FluentValue]:
         """For a role that stays: what a safe skill of its kind would undo of what its own steps do."""
         robot = self._instance.roles[role]
