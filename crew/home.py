@@ -58,6 +58,11 @@ class Home:
         """Where a crew's authority and certificates lie; crews do not share one."""
         return self._folder("certificates").absolute() / checked_chunk(crew, "crew name")
 
+    @property
+    def proofs(self) -> Path:
+        """Where proofs of contracts are kept."""
+        return self._folder("proofs")
+
     def head(self, run_id: str) -> Path:
         """Where the signed head of a run's journal is kept outside the run's folder."""
         return self._folder("heads") / f"{checked_chunk(run_id, 'run id')}.json"

@@ -1,6 +1,8 @@
 """The check of a contract: explores every plan's model and turns what is broken into findings."""
 
 from collections.abc import Callable, Iterable, Sequence
+from functools import partial
+from typing import NamedTuple
 
 from msgspec.structs import replace
 
@@ -19,8 +21,17 @@ LIMIT = 200_000
 """States of one contract. Beyond it a contract counts as not proved."""
 MAX_PLANS = 20_000
 
-Progress = Callable[[str, int, int], None]
-"""Told the contract, the states found so far and the limit."""
+
+class Stage(NamedTuple):
+    """How far a check has come."""
+
+    contract: str
+    plan: int
+    plans: int
+    states: int
+
+
+Progress = Callable[[Stage], None]
 
 
 def check_all(rules: Rules, *, limit: int = LIMIT, progress: Progress | None = None) -> dict[str, Report]:
@@ -63,52 +74,59 @@ class Search:
         self._bound = False
 
     def report(self) -> Report:
-        everything = list(self._rules.contracts.values())
-        own = self._explore(self._contract, everything)
+        own = self._cases(self._contract, list(self._rules.contracts.values()))
         dodging = self._dodging()
-        self.found = judge(self._contract, own, dodging, self._refused)
-        graphs = [*own, *dodging]
+        graphs = self._explore([*own, *dodging])
+        mine = graphs[: len(own)]
+        self.found = judge(self._contract, mine, graphs[len(own) :], self._refused)
         return Report(
             contract=self._contract.name,
             proved=not self.found and not self._bound,
             bound_reached=self._bound,
             limit=self._limit,
             plans=len(own),
-            states=sum(len(graph.reached) for graph in graphs),
+            states=self._states,
             transitions=sum(graph.transitions for graph in graphs),
             decisions=sum(graph.model.desk.asked for graph in graphs),
             findings=tuple(found.finding for found in self.found),
-            fallbacks=tuple(sorted(fallbacks(own, self._rules))),
+            fallbacks=tuple(sorted(fallbacks(mine, self._rules))),
         )
 
-    def _dodging(self) -> list[Graph]:
-        """Plans of other contracts that a request for this one could also get."""
+    def _cases(self, contract: Contract, invariants: Sequence[Contract]) -> list[Case]:
+        found: list[Case] = []
+        for case in cases(contract, self._rules, invariants):
+            if isinstance(case, Case):
+                found.append(case)
+            elif contract is self._contract:
+                self._refused.append(case)
+            if len(found) + len(self._refused) > MAX_PLANS:
+                self._bound = True
+                break
+        return found
+
+    def _dodging(self) -> list[Case]:
+        """Plans of other contracts that a request for this one could also get, and that its `never` speaks of."""
         if not self._contract.never:
             return []
         others = (other for other in self._rules.contracts.values() if other.name != self._contract.name)
-        return [graph for other in others for graph in self._explore(other, [self._contract], watched=True)]
+        return [case for other in others for case in self._cases(other, [self._contract]) if case.watches]
 
-    def _explore(self, contract: Contract, invariants: Sequence[Contract], *, watched: bool = False) -> list[Graph]:
+    def _explore(self, found: Sequence[Case]) -> list[Graph]:
         graphs: list[Graph] = []
-        for number, case in enumerate(cases(contract, self._rules, invariants)):
-            if self._bound or number >= MAX_PLANS:
+        for number, case in enumerate(found):
+            if self._states >= self._limit:
                 self._bound = True
                 break
-            if isinstance(case, Refused):
-                if not watched:
-                    self._refused.append(case)
-            elif case.watches or not watched:
-                graphs.append(self._graph(case))
+            graph = Graph(Model(case, self._rules, self._gate))
+            graphs.append(graph)
+            graph.explore(self._limit - self._states, partial(self._tell, number, len(found)))
+            self._states += len(graph.reached)
+            self._bound = self._bound or not graph.complete
         return graphs
 
-    def _graph(self, case: Case) -> Graph:
-        graph = Graph(Model(case, self._rules, self._gate))
-        graph.explore(self._limit - self._states)
-        self._states += len(graph.reached)
-        self._bound = self._bound or not graph.complete
+    def _tell(self, plan: int, plans: int, states: int) -> None:
         if self._progress is not None:
-            self._progress(self._contract.name, self._states, self._limit)
-        return graph
+            self._progress(Stage(self._contract.name, plan, plans, self._states + states))
 
 
 def fallbacks(graphs: Iterable[Graph], rules: Rules) -> set[Fallback]:

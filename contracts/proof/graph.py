@@ -1,7 +1,7 @@
 """Breadth-first exploration of one plan's model: every state once, by its shortest way."""
 
 from collections import deque
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import NamedTuple
 
 from crew.contracts.decision import Decision
@@ -12,6 +12,8 @@ from crew.contracts.proof.trouble import Note, Trouble
 
 INTRUSIONS = frozenset({"cancel", "stop", "deadline"})
 """What a mission must not depend on to reach an end."""
+
+TELL_EVERY = 50
 
 
 class Step(NamedTuple):
@@ -45,13 +47,15 @@ class Graph:
         self.fallbacks: set[tuple[str, str]] = set()
         self._by_itself: dict[State, set[State]] = {}
 
-    def explore(self, limit: int) -> None:
-        """Until nothing is new, or `limit` states are known."""
+    def explore(self, limit: int, tell: Callable[[int], None] = lambda states: None) -> None:
+        """Until nothing is new, or `limit` states are known. `tell` hears now and then how many are."""
         first = self.model.initial().state
         self.reached[first] = Step(None, ())
         queue = deque([first])
         while queue:
             state = queue.popleft()
+            if len(self.reached) % TELL_EVERY == 1:
+                tell(len(self.reached))
             targets = self._by_itself.setdefault(state, set())
             for move in self.model.moves(state):
                 self.transitions += 1

@@ -9,6 +9,7 @@ import msgspec
 from crew.bus.port import Bus
 from crew.cli.follow import follow_request
 from crew.cli.output import coloured, say, say_event, say_json
+from crew.cli.progress import proof_progress
 from crew.cli.session import EXIT_CODES, home, run
 from crew.keys import Keys
 from crew.launch.live import UNSECURED, LiveCrew, live_crew
@@ -50,7 +51,7 @@ def run_demo(options: LaunchOptions, request: str, as_json: bool) -> int:
 
 async def _demo(options: LaunchOptions, request: str, as_json: bool) -> int:
     began = time.monotonic()
-    async with live_crew(options, home()) as crew:
+    async with live_crew(options, home(), proof_progress) as crew:
         if not as_json:
             _introduce(crew, request, time.monotonic() - began)
         truths: KeepLatest[Letter[SimTruth]] = KeepLatest(letters(SimTruth))

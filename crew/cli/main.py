@@ -257,6 +257,21 @@ def contracts_new(
     _end(run_new(name, crew, do, to, as_json))
 
 
+@contracts_app.command("check")
+def contracts_check(
+    files: Annotated[list[Path] | None, typer.Argument(metavar="[FILE]...", help="Contract files.")] = None,
+    crew: Annotated[str, typer.Option("--crew", help="Crew to prove for; all that are shipped if left out.")] = "",
+    limit: Annotated[int, typer.Option(min=1, help="States of one contract, beyond which it counts as not proved.")] = (
+        200_000
+    ),
+    as_json: AsJson = False,
+) -> None:
+    """Prove contracts: every plan, every world, every failure. Exit 0 only if all are proved."""
+    from crew.cli.contract_check import run_check
+
+    _end(run_check(files or (), crew, as_json, limit))
+
+
 @contracts_app.command("schema")
 def contracts_schema() -> None:
     """Print the JSON Schema of a contract file, for editors."""

@@ -6,6 +6,7 @@ from contextlib import AbstractContextManager, AsyncExitStack
 
 from crew.cli.follow import event_box
 from crew.cli.output import coloured, say, say_event
+from crew.cli.progress import proof_progress
 from crew.cli.session import home, run
 from crew.cli.status import stop_line
 from crew.errors import UsageError
@@ -33,7 +34,7 @@ async def _up(options: LaunchOptions, view: bool) -> int:
     began = time.monotonic()
     losses = Losses()
     try:
-        async with live_crew(options, home()) as crew:
+        async with live_crew(options, home(), proof_progress) as crew:
             _introduce(crew, time.monotonic() - began)
             async with AsyncExitStack() as stack, asyncio.TaskGroup() as group:
                 if view:

@@ -4,8 +4,8 @@ import asyncio
 import json
 import os
 import time
-from collections.abc import AsyncIterator
-from contextlib import AsyncExitStack, asynccontextmanager
+from collections.abc import AsyncIterator, Callable
+from contextlib import AbstractContextManager, AsyncExitStack, asynccontextmanager, nullcontext
 from importlib.util import find_spec
 from pathlib import Path
 
@@ -13,6 +13,7 @@ from crew.actors.planner.choice import check_choice
 from crew.authority import establish
 from crew.bus.port import Bus
 from crew.bus.zenoh import ZenohBus
+from crew.contracts.proof import Progress
 from crew.contracts.site import Rules
 from crew.errors import UsageError
 from crew.home import Home, Running
@@ -23,6 +24,7 @@ from crew.launch.single import SingleProcess
 from crew.launch.site import resolve
 from crew.launch.table import RECORDER, free_tcp_port, process_table, roles
 from crew.messages import CrewStatus
+from crew.proofs import ensure_proved
 from crew.signing import load_or_create_key
 from crew.supervisor import Exit, Supervisor
 
@@ -60,10 +62,16 @@ class LiveCrew:
 
 
 @asynccontextmanager
-async def live_crew(options: LaunchOptions, home: Home) -> AsyncIterator[LiveCrew]:
+async def live_crew(
+    options: LaunchOptions,
+    home: Home,
+    progress: Callable[[], AbstractContextManager[Progress | None]] = nullcontext,
+) -> AsyncIterator[LiveCrew]:
     """Bring a crew up; yield it once a round trip through its keys has shown every robot; bring it down."""
     rules = resolve(options)
     check_choice(options.planning, os.environ)
+    with progress() as tell:
+        ensure_proved(rules, home, tell)
     establish(home.certificates(rules.crew.name), roles(rules))
     guests = f"tcp/127.0.0.1:{options.port or free_tcp_port()}"
     run_folder = new_run_folder(options.runs, rules.crew.name)
