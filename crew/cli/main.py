@@ -272,6 +272,18 @@ def contracts_check(
     _end(run_check(files or (), crew, as_json, limit))
 
 
+@contracts_app.command("coverage")
+def contracts_coverage(
+    runs: Annotated[list[Path], typer.Argument(metavar="RUNS...", help="Runs, or folders that hold runs.")],
+    crew: Annotated[str, typer.Option("--crew", help="Count this crew's contracts too, used or not.")] = "",
+    as_json: AsJson = False,
+) -> None:
+    """Which transitions, guards and codes recorded runs have exercised, and which none has."""
+    from crew.cli.coverage import run_coverage
+
+    _end(run_coverage(runs, crew, as_json))
+
+
 @contracts_app.command("schema")
 def contracts_schema() -> None:
     """Print the JSON Schema of a contract file, for editors."""
