@@ -1,6 +1,7 @@
 """Verifies a run from its journal alone: the chain, the signatures, and every decision decided once more."""
 
 from collections import Counter
+from collections.abc import Callable
 from pathlib import Path
 
 import msgspec
@@ -31,6 +32,7 @@ from crew.records import (
 from crew.signing import load_public_key
 
 JOURNAL = "journal.db"
+Listener = Callable[[Row, Record, "Replay"], None]
 
 
 class VerifyReport(msgspec.Struct, frozen=True, kw_only=True):
@@ -47,10 +49,13 @@ class VerifyReport(msgspec.Struct, frozen=True, kw_only=True):
         return not self.problems
 
 
-def verify_run(folder: Path, home: Home, *, key_file: Path | None = None) -> VerifyReport:
+def verify_run(
+    folder: Path, home: Home, *, key_file: Path | None = None, listener: Listener | None = None
+) -> VerifyReport:
     """Check a run's journal against its keys, its outside head and the code. Raises UsageError if there is no run.
 
     A run of another machine comes with its `key_file`; its outside head, `<run>.json`, is looked for beside that.
+    `listener` hears every record once it was replayed.
     """
     path = folder / JOURNAL
     if not path.is_file():
@@ -61,7 +66,7 @@ def verify_run(folder: Path, home: Home, *, key_file: Path | None = None) -> Ver
     problems = list(chain.problems)
     if key_file is None and not outside.is_file():
         problems.append(f"no head of run {folder.name} outside its folder ({outside}): a cut tail could not be noticed")
-    replay = Replay()
+    replay = Replay(listener)
     try:
         for row in read_records(path):
             replay.take(row)
@@ -79,10 +84,13 @@ def verify_run(folder: Path, home: Home, *, key_file: Path | None = None) -> Ver
 class Replay:
     """Decides a journal's decisions again, from nothing but its records and the installed code."""
 
-    def __init__(self) -> None:
+    def __init__(self, listener: Listener | None = None) -> None:
         self.counts: Counter[str] = Counter()
         self.problems: list[str] = []
-        self._rules: Rules | None = None
+        self.rules: Rules | None = None
+        self.foreign = False
+        """The run's kinds are not the installed ones: its missions are followed, its decisions are not made again."""
+        self._listener = listener
         self.states: dict[str, MissionState] = {}
         self._allowed: set[tuple[str, str]] = set()
         self._gate = Gate()
@@ -101,10 +109,12 @@ class Replay:
         self.counts[row.kind] += 1
         if isinstance(record, RunRecord):
             self._begin(row, record)
-        elif self._rules is None:
+        elif self.rules is None:
             self._problem(row, "comes before the run's own record")
         else:
-            self._try_replay(row, record, self._rules)
+            self._try_replay(row, record, self.rules)
+        if self._listener is not None:
+            self._listener(row, record, self)
 
     def _try_replay(self, row: Row, record: Record, rules: Rules) -> None:
         """A journal that was tampered with may hold what the core rules out: that is a finding, not a crash."""
@@ -115,11 +125,13 @@ class Replay:
 
     def _begin(self, row: Row, record: RunRecord) -> None:
         try:
-            self._rules = unpack(record.rules)
+            self.rules = unpack(record.rules)
         except UsageError as error:
             self._problem(row, str(error))
+            self.rules = Rules(crew=record.rules.crew, kinds={}, contracts=record.rules.contracts)
+            self.foreign = True
             return
-        if self._rules.digest() != record.rules_digest:
+        if self.rules.digest() != record.rules_digest:
             self._problem(row, "the rules do not have the digest that was recorded")
 
     def _replay(self, row: Row, record: Record, rules: Rules) -> None:
@@ -128,6 +140,8 @@ class Replay:
                 self.states[record.state.id] = record.state
             case EventRecord():
                 self._event(row, record, rules)
+            case _ if self.foreign:
+                pass
             case ValidationRecord():
                 if (state := self._state(row, record.mission, record.state_digest)) is not None:
                     again = validate(record.plan, state, record.world, rules, record.now_ns, self._gate)

@@ -136,7 +136,7 @@ def predict(
     fluents.update({name: Stamped(v, now_ns, now_ns) for name, v in effect_values(skill, call).items()})
     values = dict(world.values)
     for name in skill.reports:
-        position = _somewhere(rules.crew.area, avoid)
+        position = somewhere(rules.crew.area, avoid)
         reading = ValueReading(name=name, status="ok", position=position, stamp_ns=now_ns)
         values[name] = StampedValue(reading, call.robot, now_ns)
     robots = {**world.robots, call.robot: replace(state, fluents=fluents)}
@@ -166,7 +166,7 @@ def _put(
         values[thing] = StampedValue(reading, call.robot, now_ns)
 
 
-def _somewhere(area: Zone, avoid: Sequence[Zone]) -> Point:
+def somewhere(area: Zone, avoid: Sequence[Zone]) -> Point:
     """The middle of the area, or the first point of a coarse grid that no zone to avoid holds, if there is one."""
     grid = [
         Point(area.x_min + (area.x_max - area.x_min) * i / 8, area.y_min + (area.y_max - area.y_min) * j / 8)

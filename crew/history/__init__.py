@@ -1,0 +1,1 @@
+"""What a run did, folded from its journal. Reads and arranges; judges nothing."""
