@@ -119,6 +119,10 @@ class Home:
         names = sorted(path.stem for path in self._folder("running").glob("*.json"))
         return [running for name in names if (running := self.running(name)) is not None]
 
+    def goes_on(self, run_folder: Path) -> bool:
+        """Whether a crew that runs now writes into this folder."""
+        return any(Path(running.run_folder) == run_folder.absolute() for running in self.all_running())
+
     def _folder(self, name: str) -> Path:
         folder = self.path / name
         try:

@@ -34,6 +34,8 @@ class ChainReport(msgspec.Struct, frozen=True):
     records: int
     problems: tuple[str, ...]
     notes: tuple[str, ...]
+    head: str = ""
+    """The hash of the last record."""
 
     @property
     def intact(self) -> bool:
@@ -65,7 +67,7 @@ def check_chain(path: Path, public_key: bytes, outside_head: Path | None) -> Cha
             check.against_outside(outside)
     except sqlite3.Error as error:
         check.problem(f"journal {path} is unreadable after record {check.last_seq}: {error}")
-    return ChainReport(check.run_id, check.count, tuple(check.problems), tuple(check.notes))
+    return ChainReport(check.run_id, check.count, tuple(check.problems), tuple(check.notes), check.last_hash)
 
 
 class _Check:
@@ -77,6 +79,7 @@ class _Check:
         self.run_id = ""
         self.count = 0
         self.last_seq = 0
+        self.last_hash = ""
         self._public_key = public_key
         self._hashes: dict[int, bytes] = {}
 
@@ -126,6 +129,7 @@ class _Check:
             self.count += 1
             if seq in heads:
                 self._hashes[seq] = previous
+        self.last_hash = previous.hex() if isinstance(previous, bytes) else ""
 
     def against_inside(self, head: Head | None) -> None:
         """Each commit signs its own records, so that nothing may follow the head in the journal."""

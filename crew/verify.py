@@ -32,6 +32,8 @@ from crew.records import (
 from crew.signing import load_public_key
 
 JOURNAL = "journal.db"
+REPORT = "report.html"
+"""What a run's folder holds for people, beside its journal."""
 Listener = Callable[[Row, Record, "Replay"], None]
 
 
@@ -43,6 +45,8 @@ class VerifyReport(msgspec.Struct, frozen=True, kw_only=True):
     replayed: dict[str, int]
     problems: tuple[str, ...]
     notes: tuple[str, ...] = ()
+    head: str = ""
+    """The hash of the last record."""
 
     @property
     def holds(self) -> bool:
@@ -78,6 +82,7 @@ def verify_run(
         replayed=dict(replay.counts),
         problems=(*problems, *replay.problems),
         notes=tuple(chain.notes),
+        head=chain.head,
     )
 
 

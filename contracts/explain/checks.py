@@ -35,7 +35,7 @@ class Check(msgspec.Struct, frozen=True, kw_only=True):
 
 
 def passed_checks(case: CallCase) -> tuple[Check, ...]:
-    """Every check of an allowed call, with its values. The verdict itself is the gate's; this says what it looked at."""
+    """Every check of an allowed call, with its values. The verdict is the gate's; this says what it looked at."""
     declared = None if case.instance is None else case.instance.step(case.step)
     found = [*_capability(case), *_arguments(case)]
     if case.purpose is Purpose.SAFE:

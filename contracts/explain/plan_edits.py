@@ -68,12 +68,11 @@ def _number(given: ArgValue | None) -> float | None:
 def _forms(case: PlanCase, index: int | None, refusal: Refusal) -> Iterator[Edit]:
     """Arguments left out or added until the call has one of the forms that the contract's steps give it."""
     contract = case.rules.contracts.get(case.plan.contract)
-    if index is None or contract is None:
+    skill = None if index is None else _skill(case, case.plan.steps[index])
+    if index is None or contract is None or skill is None:
         return
     call = case.plan.steps[index]
-    skill = _skill(case, call)
-    patterns = [p for step in contract.steps for p in step.do if p.skill == call.skill]
-    for pattern in patterns if skill is not None else ():
+    for pattern in (p for step in contract.steps for p in step.do if p.skill == call.skill):
         dropped = sorted(set(call.args) - set(pattern.args))
         added = {
             n: slot_value(w, skill.param(n), contract, case) for n, w in pattern.args.items() if n not in call.args

@@ -74,7 +74,7 @@ def _fresh(case: Case, refusal: Refusal) -> Iterator[Edit]:
 def _fluent(case: Case, refusal: Refusal) -> Iterator[Edit]:
     """The fluent that a precondition or a guard reads, as it wants it."""
     path = refusal.field.rpartition("].")[2] or refusal.field
-    head, _, attribute = path.partition(".")
+    attribute = path.partition(".")[2]
     robot = _robot_of(path, case)
     if robot not in case.world.robots:
         yield from _value(case, refusal)

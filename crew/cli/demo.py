@@ -16,6 +16,7 @@ from crew.launch.live import UNSECURED, LiveCrew, live_crew
 from crew.launch.options import LaunchOptions
 from crew.mailbox import KeepLatest, Letter, letters
 from crew.messages import MissionEvent, PlannedStep, SimTruth
+from crew.verify import REPORT
 
 
 class DemoStep(msgspec.Struct, frozen=True, kw_only=True):
@@ -139,3 +140,4 @@ def _conclude(result: DemoResult) -> None:
     say(coloured(f"{result.outcome}{f' ({result.code})' if result.code else ''}", colour))
     say(f"{result.sim_s:.1f} s of mission time in {result.wall_s:.1f} s; the run is in {result.run}")
     say(f"check it: crew verify {result.run}")
+    say(f"read it: {result.run}/{REPORT}")

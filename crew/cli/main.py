@@ -208,6 +208,35 @@ def replay(
 
 
 @app.command()
+def report(
+    run: Annotated[Path, typer.Argument(help="A run's folder, its name, or `last`.")],
+    runs: Runs = Path("runs"),
+    key: Annotated[Path | None, typer.Option(help="The orchestrator's public key, if not this machine's.")] = None,
+    to: Annotated[
+        Path | None, typer.Option(help="The file to write; by default report.html in the run's folder.")
+    ] = None,
+) -> None:
+    """Write a run as one HTML page: what was asked, proposed, decided and why, and what happened."""
+    from crew.cli.report import run_report
+
+    _end(run_report(run, runs, key, to))
+
+
+@app.command()
+def explain(
+    run: Annotated[Path, typer.Argument(help="A run's folder, its name, or `last`.")],
+    decision: Annotated[int | None, typer.Argument(help="A decision's number, as listed without one.")] = None,
+    runs: Runs = Path("runs"),
+    key: Annotated[Path | None, typer.Option(help="The orchestrator's public key, if not this machine's.")] = None,
+    as_json: AsJson = False,
+) -> None:
+    """Why a run's decisions are what they are, and what would have been accepted instead."""
+    from crew.cli.explain import run_explain
+
+    _end(run_explain(run, decision, runs, key, as_json))
+
+
+@app.command()
 def skills(crew: CrewName = "air_ground", as_json: AsJson = False) -> None:
     """What each robot of a crew can do."""
     from crew.cli.contracts import run_skills

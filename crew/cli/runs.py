@@ -8,7 +8,8 @@ from crew.cli.output import coloured, say, say_json, table
 from crew.cli.session import home
 from crew.errors import JournalError, UsageError
 from crew.journal_reader import read_records
-from crew.verify import JOURNAL, Replay, verify_run
+from crew.verify import JOURNAL, REPORT, Replay, verify_run
+from crew.visible import one_line
 
 
 class RunSummary(msgspec.Struct, frozen=True, kw_only=True):
@@ -19,6 +20,8 @@ class RunSummary(msgspec.Struct, frozen=True, kw_only=True):
     missions: tuple[str, ...]
     requests: tuple[str, ...]
     outcome: str
+    report: str
+    """Its page, or empty if there is none yet."""
 
 
 def run_runs(folder: Path, as_json: bool) -> int:
@@ -31,10 +34,17 @@ def run_runs(folder: Path, as_json: bool) -> int:
         say(f"no runs in {folder.absolute()}; make one with crew demo, or name another folder with --runs")
         return 0
     for line in table(
-        {"run": s.run, "records": str(s.records), "outcome": s.outcome, "request": "; ".join(s.requests)[:60]}
+        {
+            "run": s.run,
+            "records": str(s.records),
+            "outcome": s.outcome,
+            "report": REPORT if s.report else "-",
+            "request": one_line("; ".join(s.requests), 60),
+        }
         for s in found
     ):
         say(line)
+    say("why it went as it did: crew explain RUN; as a page: crew report RUN")
     return 0
 
 
@@ -53,6 +63,7 @@ def summarise(folder: Path) -> RunSummary:
         missions=tuple(s.id for s in states),
         requests=tuple(s.request for s in states),
         outcome=problem or ", ".join(str(s.phase) for s in states) or "no mission",
+        report=str(folder / REPORT) if (folder / REPORT).is_file() else "",
     )
 
 

@@ -14,6 +14,7 @@ from crew.launch.live import UNSECURED, LiveCrew, live_crew
 from crew.launch.options import LaunchOptions
 from crew.mailbox import Events, Letter, letters
 from crew.messages import RobotEvent
+from crew.verify import REPORT
 
 LOSS = {
     "orchestrator": "robots do what their skills declare for a lost orchestrator; missions are over",
@@ -32,9 +33,10 @@ def run_up(options: LaunchOptions, view: bool = False) -> int:
 
 async def _up(options: LaunchOptions, view: bool) -> int:
     began = time.monotonic()
-    losses = Losses()
+    losses, run_folder = Losses(), None
     try:
         async with live_crew(options, home(), proof_progress) as crew:
+            run_folder = crew.run_folder
             _introduce(crew, time.monotonic() - began)
             async with AsyncExitStack() as stack, asyncio.TaskGroup() as group:
                 if view:
@@ -44,6 +46,8 @@ async def _up(options: LaunchOptions, view: bool) -> int:
                 group.create_task(losses.watch(crew))
     except asyncio.CancelledError:
         say("\nthe crew is down")
+        if run_folder is not None:
+            say(f"read what it did: {run_folder / REPORT}")
     return 1 if losses.count else 0
 
 

@@ -28,7 +28,7 @@ class Line(msgspec.Struct, frozen=True, kw_only=True):
 
 
 class ContractTexts:
-    """Finds each contract's file: beside the journal, where the run read it, or in the library."""
+    """Finds each contract's file: beside the journal, or in the library."""
 
     def __init__(self, run_folder: Path, rules: Rules) -> None:
         self._folder, self._rules = run_folder, rules
@@ -64,8 +64,6 @@ class ContractTexts:
 
 def _places(folder: Path, contract: Contract) -> Iterator[Path]:
     yield folder / FOLDER / f"{contract.name}.yaml"
-    if contract.source:
-        yield Path(contract.source)
     yield CONTRACTS / f"{contract.name}.yaml"
 
 

@@ -14,7 +14,7 @@ from crew.contracts.refusal import Refusal
 from crew.contracts.site import Rules
 from crew.history.contract_text import ContractTexts, Line
 from crew.history.history import History, Verdict
-from crew.records import DecisionRecord
+from crew.records import DecisionRecord, IntentRecord
 
 ALLOWED, REFUSED, ASKED = "allowed", "refused", "asked"
 
@@ -35,9 +35,25 @@ class Explanation(msgspec.Struct, frozen=True, kw_only=True):
     observed: str = ""
     allowed: str = ""
     line: Line | None = None
+    is_call: bool = False
+    sent: bool = False
+    """Whether the journal holds the dispatch that followed."""
     words: tuple[Words, ...] = ()
     checks: tuple[Check, ...] = ()
     """What was checked and held, where it was allowed."""
+    change: Change | None = None
+
+    @property
+    def never_sent(self) -> bool:
+        """An allowed call that no dispatch followed: the mission ended in the same moment."""
+        return self.is_call and self.outcome == ALLOWED and not self.sent
+
+
+class Grounds(msgspec.Struct, frozen=True, kw_only=True):
+    """The parts of an explanation that only judging again can give."""
+
+    words: tuple[Words, ...] = ()
+    checks: tuple[Check, ...] = ()
     change: Change | None = None
 
 
@@ -52,16 +68,15 @@ class Explainer:
 
     def explain(self, verdict: Verdict, *, search: bool = True) -> Explanation:
         """One verdict. `search`: look for the smallest change that would have been accepted."""
-        case, refusal = case_of(verdict, self._rules), verdict.refusal
-        again = not self._history.foreign
-        began_ns = self._history.mission_of(verdict).began_ns
+        refusal, mission = verdict.refusal, self._history.mission_of(verdict)
+        grounds = self._grounds(verdict, search=search)
         question = None if isinstance(verdict.record, DecisionRecord) else verdict.record.validation.question
         outcome = REFUSED if refusal is not None else ASKED if question is not None else ALLOWED
         sentence = refusal.message if refusal is not None else question.text if question is not None else "accepted"
         return Explanation(
             number=verdict.number,
             mission=verdict.mission.id,
-            at_s=round((verdict.at_ns - began_ns) / 1e9, 3),
+            at_s=round((verdict.at_ns - mission.began_ns) / 1e9, 3),
             subject=verdict.subject,
             outcome=outcome,
             code=None if refusal is None else str(refusal.code),
@@ -71,10 +86,26 @@ class Explainer:
             observed="" if refusal is None else refusal.observed,
             allowed="" if refusal is None else refusal.allowed,
             line=self._line(verdict, refusal),
-            words=words_involved(case, refusal) if again else (),
-            checks=_checks(case) if again and refusal is None else (),
-            change=smallest_change(case) if again and search and refusal is not None else None,
+            is_call=isinstance(verdict.record, DecisionRecord),
+            sent=any(_follows(intent, verdict) for intent in mission.intents),
+            words=grounds.words,
+            checks=grounds.checks,
+            change=grounds.change,
         )
+
+    def _grounds(self, verdict: Verdict, *, search: bool) -> Grounds:
+        """What is found by judging again. An altered journal may hold what the core rules out: then nothing is."""
+        if self._history.foreign:
+            return Grounds()
+        case, refusal = case_of(verdict, self._rules), verdict.refusal
+        try:
+            return Grounds(
+                words=words_involved(case, refusal),
+                checks=_checks(case) if refusal is None else (),
+                change=smallest_change(case) if search and refusal is not None else None,
+            )
+        except Exception:
+            return Grounds()
 
     def _line(self, verdict: Verdict, refusal: Refusal | None) -> Line | None:
         """The line that the refusal names; otherwise the key that its code is about, or the step that was judged."""
@@ -110,6 +141,14 @@ def _number(step: str, contract: Contract) -> int:
         return 0 if found is None else found.line
     declared = contract.step(step)
     return 0 if declared is None else declared.line
+
+
+def _follows(intent: IntentRecord, verdict: Verdict) -> bool:
+    """Whether a dispatch is the one that a decision allowed."""
+    if not isinstance(verdict.record, DecisionRecord):
+        return False
+    dispatch, decision = intent.dispatch, verdict.record.decision
+    return (dispatch.step, dispatch.issued_ns) == (decision.step, decision.at_ns)
 
 
 def _contract(verdict: Verdict) -> str:

@@ -44,7 +44,7 @@ class Span(msgspec.Struct, frozen=True, kw_only=True):
 
 
 class Mark(msgspec.Struct, frozen=True, kw_only=True):
-    """A moment of a lane. `kind`: refused, accepted, seen, stop, end and the mission's outcomes."""
+    """A moment of a lane. `kind`: refused, seen, value, and the mission's outcomes."""
 
     lane: str
     kind: str
@@ -84,7 +84,7 @@ def lanes_of(mission: MissionHistory, last_ns: int) -> Lanes:
     tracks = list(tracks_of(mission))
     spans = [*_phases(mission, end_ns), *_held(mission, tracks, end_ns)]
     spans += [_flight(track, end_ns) for track in tracks if track.sent_ns >= 0]
-    marks = [*_refusals(mission), *_seen(tracks), *_outcome(mission)]
+    marks = [*_values(mission), *_refusals(mission), *_seen(tracks), *_outcome(mission)]
     robots = dict.fromkeys(t.record.call.robot for t in tracks)
     return Lanes(
         names=(MISSION, *robots),
@@ -157,7 +157,9 @@ def _held(mission: MissionHistory, tracks: list[Track], end_ns: int) -> Iterator
     free_ns: dict[str, int] = {}
     by_name = {track.name: track for track in tracks}
     for step in instance.steps:
-        track, robot = by_name[step.step], step.call.robot
+        track, robot = by_name.get(step.step), step.call.robot
+        if track is None:
+            continue
         since_ns = free_ns.get(robot, start_ns)
         decided_ns = next((t for t in (track.sent_ns, track.ended_ns) if t >= 0), halted_ns)
         if decided_ns > since_ns:
@@ -205,6 +207,20 @@ def _refusals(mission: MissionHistory) -> Iterator[Mark]:
         refusal = verdict.refusal
         title = f"decision {verdict.number} refused: {verdict.subject}: {refusal.code}: {refusal.message}"
         yield Mark(lane=lane, kind="refused", at_ns=verdict.at_ns, title=title)
+
+
+def _values(mission: MissionHistory) -> Iterator[Mark]:
+    """When each run-time value was first published as it was later used; what came before the mission is left out."""
+    worlds = [v.world for v in mission.verdicts] + [record.world for _, record in mission.judgements]
+    seen: set[tuple[str, str]] = set()
+    for stamped in (value for world in worlds for value in world.values.values()):
+        reading = stamped.reading
+        key = (reading.name, f"{reading.status} {reading.position}")
+        if key not in seen and stamped.received_ns >= mission.began_ns:
+            seen.add(key)
+            where = f" at ({reading.position.x:.2f}, {reading.position.y:.2f})" if reading.position is not None else ""
+            title = f"{stamped.source} published {reading.name}: {reading.status}{where}"
+            yield Mark(lane=stamped.source, kind="value", at_ns=stamped.received_ns, title=title)
 
 
 def _seen(tracks: list[Track]) -> Iterator[Mark]:

@@ -16,10 +16,12 @@ from crew.bus.zenoh import ZenohBus
 from crew.contracts.proof import Progress
 from crew.contracts.site import Rules
 from crew.errors import UsageError
+from crew.history.contract_text import keep_contracts
 from crew.home import Home, Running
 from crew.keys import Keys
 from crew.launch.options import LaunchOptions
 from crew.launch.ready import await_ready
+from crew.launch.reported import reported
 from crew.launch.single import SingleProcess
 from crew.launch.site import resolve
 from crew.launch.table import RECORDER, free_tcp_port, process_table, roles
@@ -77,6 +79,7 @@ async def live_crew(
     run_folder = new_run_folder(options.runs, rules.crew.name)
     exits: asyncio.Queue[Exit] = asyncio.Queue()
     async with AsyncExitStack() as stack:
+        stack.enter_context(reported(run_folder, home))
         endpoint = f"tls/127.0.0.1:{free_tcp_port()}"
         running = stack.enter_context(home.claim(rules.crew.name, run_folder, endpoint, guests))
         _write_resolved(rules, options, run_folder)
@@ -146,3 +149,4 @@ def _write_resolved(rules: Rules, options: LaunchOptions, run_folder: Path) -> N
     }
     text = "# As resolved at the start of this run. Written as JSON, which YAML 1.2 reads.\n"
     (run_folder / "crew.yaml").write_text(text + json.dumps(resolved, indent=2) + "\n")
+    keep_contracts(run_folder, rules.contracts)
