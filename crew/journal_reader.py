@@ -58,10 +58,12 @@ def check_chain(path: Path, public_key: bytes, outside_head: Path | None) -> Cha
     Without `outside_head` a journal that was rolled back to an earlier state of itself is not found; a note says so.
     """
     check = _Check(public_key)
+    kept = None if outside_head is None else _read(outside_head)
     try:
         with closing(_connect(path)) as connection:
+            connection.execute("BEGIN")  # one moment of a journal that may still be written to
             inside = check.read_run(connection)
-            outside = check.read_outside(outside_head)
+            outside = check.read_outside(outside_head, kept)
             check.records(connection, {head.seq for head in (inside, outside) if head is not None})
             check.against_inside(inside)
             check.against_outside(outside)
@@ -100,15 +102,15 @@ class _Check:
             return None
         return self._genuine(_head_of_row(heads[0]), "head in the journal")
 
-    def read_outside(self, path: Path | None) -> Head | None:
-        """The head that was kept outside the run's folder."""
+    def read_outside(self, path: Path | None, kept: bytes | OSError | None) -> Head | None:
+        """The head that was kept outside the run's folder, as it was before the journal was opened."""
         if path is None:
             self.notes.append("no head outside the journal was compared: a rolled back journal would not be found")
             return None
         try:
-            head = msgspec.json.decode(path.read_bytes(), type=Head)
-        except (OSError, msgspec.MsgspecError) as error:
-            self.problem(f"missing head: {path} cannot be read ({error})")
+            head = msgspec.json.decode(b"" if isinstance(kept, OSError) or kept is None else kept, type=Head)
+        except msgspec.MsgspecError as error:
+            self.problem(f"missing head: {path} cannot be read ({kept if isinstance(kept, OSError) else error})")
             return None
         return self._genuine(head, "head outside")
 
@@ -185,6 +187,13 @@ def _head_of_row(row: Sequence[Any]) -> Head | None:
         return msgspec.convert(columns, Head)
     except msgspec.ValidationError:
         return None
+
+
+def _read(path: Path) -> bytes | OSError:
+    try:
+        return path.read_bytes()
+    except OSError as error:
+        return error
 
 
 def _text(value: object) -> str:

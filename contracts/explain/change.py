@@ -32,7 +32,21 @@ class Change(msgspec.Struct, frozen=True, kw_only=True):
 
 
 def smallest_change(case: Case) -> Change | None:
-    """The smallest accepted change that the search finds, or None. Edits are tried by their summed size."""
+    """The smallest accepted change that the search finds, or None; also None for a case that is accepted as it is."""
+    edits, tried = accepted_edits(case)
+    if not edits:
+        return None
+    verdict = edits[-1].case.judge()
+    asked = verdict.question if isinstance(verdict, Validation) else None
+    texts = tuple(edit.text for edit in edits)
+    return Change(edits=texts, tried=tried, question="" if asked is None else asked.text)
+
+
+def accepted_edits(case: Case) -> tuple[tuple[Edit, ...], int]:
+    """The edits, of which the last leads to a case that the gate accepts, and how many cases it judged.
+
+    Edits answer the refusal at hand and are tried by their summed size, so that what is found first is smallest.
+    """
     order = count()
     waiting: list[tuple[float, int, tuple[Edit, ...], Case]] = [(0.0, next(order), (), case)]
     seen = {_identity(case)}
@@ -40,12 +54,9 @@ def smallest_change(case: Case) -> Change | None:
     while waiting and tried < MAX_TRIED:
         size, _, edits, candidate = heapq.heappop(waiting)
         tried += 1
-        verdict = candidate.judge()
-        refusal = verdict.refusal
+        refusal = candidate.judge().refusal
         if refusal is None:
-            asked = verdict.question if isinstance(verdict, Validation) else None
-            texts = tuple(edit.text for edit in edits)
-            return Change(edits=texts, tried=tried, question="" if asked is None else asked.text) if edits else None
+            return edits, tried
         if len(edits) >= MAX_EDITS:
             continue
         for edit in _candidates(candidate, refusal):
@@ -53,7 +64,7 @@ def smallest_change(case: Case) -> Change | None:
             if identity not in seen:
                 seen.add(identity)
                 heapq.heappush(waiting, (size + edit.size, next(order), (*edits, edit), edit.case))
-    return None
+    return (), tried
 
 
 def _candidates(case: Case, refusal: Refusal) -> list[Edit]:

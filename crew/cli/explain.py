@@ -51,6 +51,8 @@ def run_explain(run: Path, decision: int | None, runs: Path, key: Path | None, a
     else:
         _warn(report, goes_on=home().goes_on(folder), version=history.run.version if history.run else "")
         _say(told, folder, in_full=decision is not None)
+        if history.rules is None:
+            say("the journal holds no readable record of its run: nothing in it can be followed")
     return 0 if report.holds else 1
 
 
@@ -105,7 +107,7 @@ def _warn(report: VerifyReport, *, goes_on: bool, version: str) -> None:
 
 def _say(told: list[MissionExplanation], folder: Path, *, in_full: bool) -> None:
     if not told:
-        say(f"no mission was asked for in {folder.name}")
+        say(f"nothing was decided in {folder.name}")
     for mission in told:
         ended = mission.outcome if mission.outcome in ENDS else f"not ended ({mission.outcome})"
         say(f'mission {mission.mission}: "{one_line(mission.request, 300)}"')

@@ -107,6 +107,7 @@ class History:
     def __init__(self) -> None:
         self.run: RunRecord | None = None
         self.rules: Rules | None = None
+        """None if the journal holds no record of its run: then nothing of it can be followed."""
         self.foreign = False
         self.missions: dict[str, MissionHistory] = {}
         self.notes: list[Note] = []
@@ -121,6 +122,8 @@ class History:
         self.first_wall_ns = self.first_wall_ns or row.wall_ns
         self.last_wall_ns, self.last_ns = row.wall_ns, max(self.last_ns, row.at_ns)
         self.rules, self.foreign = replay.rules, replay.foreign
+        if self.rules is None and not isinstance(record, NoteRecord):
+            return
         match record:
             case RunRecord():
                 self.run = record

@@ -38,7 +38,7 @@ def page(history: History, report: VerifyReport, folder: Path, *, running: bool)
         "main",
         whole.head(history, report),
         whole.verdict(report, running=running, folder=folder),
-        whole.overview(missions),
+        whole.overview(history),
         _missions(missions, history, folder),
         whole.robots(history),
         whole.notes(history),

@@ -8,7 +8,7 @@ from crew.contracts.gate.guard import age
 from crew.contracts.plan import digest
 from crew.contracts.refusal import show
 from crew.contracts.snapshot import Point, RobotState, Snapshot
-from crew.history.history import History, MissionHistory
+from crew.history.history import History
 from crew.report.html import Html, join, tag
 from crew.report.mission import outcome_of
 from crew.verify import VerifyReport
@@ -57,8 +57,11 @@ def verdict(report: VerifyReport, *, running: bool, folder: Path) -> Html:
     return join([banner, notes])
 
 
-def overview(missions: list[MissionHistory]) -> Html:
+def overview(history: History) -> Html:
     """One row a mission; a single one tells of itself."""
+    missions = list(history.missions.values())
+    if history.rules is None:
+        return tag("p", "The journal holds no readable record of its run: nothing in it can be followed.")
     if not missions:
         return tag("p", "No mission was asked for in this run.", class_="soft")
     if len(missions) == 1:

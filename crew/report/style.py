@@ -69,7 +69,8 @@ td.group{color:var(--soft);white-space:nowrap;width:1%}
 @media print{@page{margin:12mm}:root{--ink:#000;--soft:#444;--line:#ccc;--page:#fff;--tint:#f6f8fa;--blue:#2f6fb0;
 --green:#146c4c;--red:#b3261e;--amber:#8a5200;--violet:#5a4ba5;--held:#f3c469;--heldink:#5a3c00;--exec:#cfd9e2;
 --execink:#34424f;--skill:#3f7fbf;--safe:#2a9d8f;--bad:#8d6a9f;--okbg:#eef8f3;--badbg:#fdf1f0;--warnbg:#fff8ea}
-body{font-size:8.5pt;line-height:1.4}main{max-width:none;padding:0}table,dl,code,pre,.small,.read,details table{font-size:8pt}
+body{font-size:8.5pt;line-height:1.4}main{max-width:none;padding:0}table,dl,code,pre,.small,.read,
+details table{font-size:8pt}
 th,h3,.over,.legend{font-size:7.5pt}details{font-size:8.5pt}
 h1{font-size:16pt}h2{font-size:12pt;margin-top:20px}h3{margin-top:16px}blockquote.request{font-size:12pt}
 .why>p:first-child{font-size:10pt}*{print-color-adjust:exact;-webkit-print-color-adjust:exact}

@@ -70,6 +70,10 @@ class Stage:
                 self._perform(effect)
         return self.state
 
+    def settle(self) -> None:
+        """Wait until all of it is on the disk."""
+        self._ledger.note("settled", "").wait(5.0)
+
     def feed(self, event: ev.AnyEvent) -> None:
         """Something that nobody asked for, once the mission is under way."""
         self._queue.append(event)
