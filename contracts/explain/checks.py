@@ -8,7 +8,7 @@ from crew.contracts.codes import Group
 from crew.contracts.contract import Condition, Contract
 from crew.contracts.explain.case import CallCase, PlanCase
 from crew.contracts.gate.arguments import bounds, names_for
-from crew.contracts.gate.guard import SECOND_NS, Scope, Verdict, age, evaluate, publication, robot_fluent_is
+from crew.contracts.gate.guard import SECOND_NS, Scope, Verdict, age, evaluate, robot_fluent_is
 from crew.contracts.gate.scope import scope_of, skill_of
 from crew.contracts.language.licence import shown
 from crew.contracts.mission.provenance import sources
@@ -86,7 +86,9 @@ def _arguments(case: CallCase) -> Iterator[Check]:
 def _argument(param: Param, case: CallCase) -> tuple[str, str]:
     value = case.call.args[param.name]
     if not param.is_number:
-        return str(value), listed(names_for(param.entity, case.rules), word="or")
+        spec = case.rules.crew.robot(case.call.robot)
+        names = spec.reach if param.reach and spec is not None else names_for(param.entity, case.rules)
+        return str(value), listed(names, word="or")
     low, high = bounds(param, case.rules)
     return f"{show(value)} {param.unit}".strip(), f"{low:g} to {high:g} {param.unit}".strip()
 
@@ -193,7 +195,7 @@ def _values(case: CallCase) -> Iterator[Check]:
 
 
 def _value(argument: str, name: str, where: str, stamped: StampedValue, case: CallCase) -> Check:
-    reading, declared = stamped.reading, publication(stamped.source, name, case.rules)
+    reading, declared = stamped.reading, case.rules.publication(stamped.source, name)
     sigma = "" if reading.sigma_m is None else f" +- {reading.sigma_m:.2f} m"
     looks = f", {reading.looks} looks" if reading.looks else ""
     return Check(

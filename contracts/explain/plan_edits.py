@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterator
 from msgspec.structs import replace
 
 from crew.contracts.codes import Code
-from crew.contracts.contract import Contract, Step
+from crew.contracts.contract import CallPattern, Contract, Step
 from crew.contracts.explain.case import PlanCase
 from crew.contracts.explain.edit import LARGE, MIDDLE, SMALL, Edit, value_edit, with_args, with_call, with_steps
 from crew.contracts.explain.new_step import new_calls, slot_value
@@ -36,7 +36,7 @@ def _argument(case: PlanCase, index: int | None, refusal: Refusal) -> Iterator[E
     if index is None or skill is None or param is None:
         return
     call = case.plan.steps[index]
-    for value in _values(param, call.args.get(name), case):
+    for value in _values(param, call, case):
         yield value_edit(case, index, name, value)
     for low, high in skill.ranges:
         if name == low and high in call.args and low in call.args:
@@ -44,9 +44,11 @@ def _argument(case: PlanCase, index: int | None, refusal: Refusal) -> Iterator[E
             yield Edit(f"{low} and {high} swapped in {call.skill}", SMALL, with_call(case, index, swapped))
 
 
-def _values(param: Param, given: ArgValue | None, case: PlanCase) -> list[ArgValue]:
+def _values(param: Param, call: Call, case: PlanCase) -> list[ArgValue]:
+    given, spec = call.args.get(param.name), case.rules.crew.robot(call.robot)
     if not param.is_number:
-        return [name for name in names_for(param.entity, case.rules) if name != given]
+        names = spec.reach if param.reach and spec is not None else names_for(param.entity, case.rules)
+        return [name for name in names if name != given]
     low, high = bounds(param, case.rules)
     number = _number(given)
     if number is not None and low <= number <= high:
@@ -161,15 +163,21 @@ def _in_order(case: PlanCase, index: int | None, refusal: Refusal) -> Iterator[E
 
 
 def _filled(case: PlanCase, contract: Contract) -> list[Step | None]:
-    """For each call the contract's step that it most likely fills: the next one that does the same skill."""
+    """For each call the contract's step that it most likely fills: the next one whose constants it has."""
     free = list(contract.steps)
     found: list[Step | None] = []
     for call in case.plan.steps:
-        step = next((s for s in free if any(p.skill == call.skill for p in s.do)), None)
+        step = next((s for s in free if any(_could_be(call, pattern) for pattern in s.do)), None)
         if step is not None:
             free.remove(step)
         found.append(step)
     return found
+
+
+def _could_be(call: Call, pattern: CallPattern) -> bool:
+    """Whether a call does a pattern's skill with its constant arguments."""
+    fixed = {n: w for n, w in pattern.args.items() if not (isinstance(w, str) and w.startswith("$"))}
+    return call.skill == pattern.skill and all(call.args.get(name) == value for name, value in fixed.items())
 
 
 def _place(step: Step, contract: Contract, filled: list[Step | None]) -> int:

@@ -5,8 +5,7 @@ from collections.abc import Callable, Iterator
 from msgspec.structs import replace
 
 from crew.contracts.codes import Code
-from crew.contracts.contract import Condition
-from crew.contracts.explain.case import CallCase, Case
+from crew.contracts.explain.case import CallCase, Case, PlanCase
 from crew.contracts.explain.edit import LARGE, MIDDLE, SMALL, Edit
 from crew.contracts.gate.scope import pins_of
 from crew.contracts.mission.effect import somewhere
@@ -92,16 +91,18 @@ def _wanted(path: str, attribute: str, robot: str, case: Case) -> Iterator[Fluen
     for skill in () if kind is None else kind.skills:
         if attribute in skill.needs:
             yield from _meant(skill.needs[attribute], False, case)
-    contract = case.rules.contracts.get(case.mission.contract)
+    yield from _asked(path, case)
+
+
+def _asked(path: str, case: Case) -> Iterator[FluentValue]:
+    """Values that the guards of the plan's contract ask of a path."""
+    name = case.plan.contract if isinstance(case, PlanCase) else case.mission.contract
+    contract = case.rules.contracts.get(name)
     if contract is not None:
         conditions = [*contract.needs, *(c for step in contract.steps for c in step.needs)]
         for condition in conditions:
             if condition.path == path:
-                yield from _of(condition, case)
-
-
-def _of(condition: Condition, case: Case) -> Iterator[FluentValue]:
-    return _meant(condition.value, condition.negated, case)
+                yield from _meant(condition.value, condition.negated, case)
 
 
 def _meant(wanted: FluentLiteral, negated: bool, case: Case) -> Iterator[FluentValue]:
@@ -121,19 +122,29 @@ def _value(case: Case, refusal: Refusal) -> Iterator[Edit]:
     """A good reading of the run-time value that is missing, from each robot whose kind publishes it."""
     for name in _value_names(case, refusal):
         for robot in sorted(case.rules.publishers_of(name)):
-            position = _place(name, case)
-            reading = ValueReading(name=name, status="ok", position=position, stamp_ns=case.now_ns)
-            values = {**case.world.values, name: StampedValue(reading, robot, case.now_ns)}
-            where = f"({position.x:g}, {position.y:g})"
-            text = f"a fresh fix of {name} by {robot}, inside the area (tried: {where})"
-            yield Edit(text, MIDDLE, replace(case, world=replace(case.world, values=values)))
+            for near in _nearness(case, refusal):
+                position = _place(name, case)
+                reading = ValueReading(name=name, status="ok", position=position, near=near, stamp_ns=case.now_ns)
+                values = {**case.world.values, name: StampedValue(reading, robot, case.now_ns)}
+                where = f"({position.x:g}, {position.y:g})"
+                how = "inside the area" if near is None else "near" if near else "not near"
+                text = f"a fresh fix of {name} by {robot}, {how} (tried: {where})"
+                yield Edit(text, MIDDLE, replace(case, world=replace(case.world, values=values)))
+
+
+def _nearness(case: Case, refusal: Refusal) -> list[bool | None]:
+    """What a value's `near` must be, where a guard asks for it."""
+    path = refusal.field.rpartition("].")[2] or refusal.field
+    if not path.endswith(".near"):
+        return [None]
+    return [bool(value) for value in _asked(path, case) if isinstance(value, bool)]
 
 
 def _value_names(case: Case, refusal: Refusal) -> list[str]:
     """The crew's run-time values that the call carries, or that the refusal's guard speaks of."""
     carried = set(case.call.args.values()) if isinstance(case, CallCase) else set()
     slots = {} if case.instance is None else case.instance.slots
-    head = refusal.field.partition(".")[0]
+    head = (refusal.field.rpartition("].")[2] or refusal.field).partition(".")[0]
     named = carried | {head, slots.get(head)} | set(slots.values() if not carried else ())
     return [v.name for v in case.rules.crew.values if v.name in named]
 

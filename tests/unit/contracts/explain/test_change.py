@@ -3,6 +3,7 @@
 import math
 
 import pytest
+from msgspec.structs import replace
 
 from crew.contracts.explain.case import CallCase, Case, PlanCase
 from crew.contracts.explain.change import MAX_TRIED, accepted_edits, smallest_change
@@ -10,6 +11,7 @@ from crew.contracts.gate.guard import SECOND_NS
 from crew.contracts.mission_state import Phase, Purpose
 from crew.contracts.plan import Call, Plan
 from crew.contracts.snapshot import Point, Snapshot
+from crew.library import load_rules
 from tests.unit.contracts.build import (
     BASE_PLAN,
     DISPATCH,
@@ -56,7 +58,7 @@ def of_call(snapshot: Snapshot, call: Call = DISPATCH, **changes: object) -> Cal
         rules=RULES,
         now_ns=NOW_NS,
     )
-    return type(case)(**{**{f: getattr(case, f) for f in case.__struct_fields__}, **changes})
+    return replace(case, **changes)
 
 
 def to_base(robot: str = "tb3", skill: str = "navigate_to", **args: str | float) -> Plan:
@@ -135,6 +137,32 @@ def test_what_is_offered_is_what_a_person_would_think_of_and_the_gate_accepts_it
     assert edits[-1].case.judge().refusal is None
     assert tried <= MAX_TRIED
     assert all(edit.case.judge().refusal is not None for edit in edits[:-1]), "no edit is one too many"
+
+
+CUBE_TO_ROOM = "bring the red cube to room_a"
+APPROACH = Call("go2", "navigate", {"location": "pickup"})
+LOAD = Call("g1", "pick_place", {"object": "red_cube", "location": "payload_tray"})
+DELIVER = Call("go2", "navigate", {"location": "room_a"})
+HAND_OVER = Plan("handover", (Call("g1", "pick_handover", {"object": "red_cube"}),))
+BEYOND = Plan("manipulation_only", (Call("g1", "pick_place", {"object": "red_cube", "location": "room_b"}),))
+
+
+@pytest.mark.parametrize(
+    ("text", "proposed", "expected"),
+    [
+        (CUBE_TO_ROOM, Plan("carry", (APPROACH, DELIVER)), "with g1.pick_place(object=red_cube"),
+        (CUBE_TO_ROOM, Plan("navigation_only", (DELIVER,)), "contract carry instead of navigation_only; and with g1"),
+        ("bring the bottle to room_a", Plan("carry", (APPROACH, LOAD, DELIVER)), "object bottle"),
+        ("hand me the red cube", HAND_OVER, "a fresh fix of requester by g1, near"),
+        ("place the red cube in room_b", BEYOND, "with go2.navigate(location=room_b)"),
+    ],
+)
+def test_the_search_knows_no_crew_by_name(text: str, proposed: Plan, expected: str) -> None:
+    rules = load_rules("humanoid_quadruped")
+    mission = replace(received(text, rules), phase=Phase.VALIDATING)
+    case = PlanCase(plan=proposed, mission=mission, world=Snapshot(), rules=rules, now_ns=NOW_NS)
+    assert case.judge().refusal is not None
+    assert expected in str(smallest_change(case))
 
 
 def test_two_reasons_need_two_edits() -> None:
