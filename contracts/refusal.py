@@ -16,6 +16,8 @@ class Refusal(msgspec.Struct, frozen=True, kw_only=True):
     allowed: str = ""
     line: str = ""
     """The contract's line, such as `search_and_dispatch:31`."""
+    question: str = ""
+    """What a person has to decide before it can be asked for again; empty if nothing is theirs to decide."""
 
     def __str__(self) -> str:
         where = f" [{self.field}]" if self.field else ""

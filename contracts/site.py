@@ -68,6 +68,8 @@ class SimSpec(msgspec.Struct, frozen=True, kw_only=True):
     map: str = "A"
     seed: int = 0
     faults: tuple[str, ...] = ()
+    autopilots: Mapping[str, str] = {}
+    """Vehicle to the autopilot that it flies or drives with, where that is not the scene's own."""
 
 
 class Crew(msgspec.Struct, frozen=True, kw_only=True):

@@ -25,12 +25,16 @@ class Stamped(msgspec.Struct, frozen=True):
     received_ns: int
 
 
-STATUSES = ("ok", "absent", "ambiguous")
+STATUSES = ("ok", "absent", "ambiguous", "uncertain", "outside_zone", "not_a_person")
 """What a run-time value's status may be."""
 
 
 class ValueReading(msgspec.Struct, frozen=True, kw_only=True):
-    """A run-time value. `status` is `ok`, or says why there is no position (`absent`, `ambiguous`)."""
+    """A run-time value. `status` is `ok`, or says why there is no position.
+
+    `absent`: nobody was seen. `ambiguous`: several were, at `candidates`. `uncertain`: one was, too badly to be sent
+    to. `outside_zone`: one was, but not where the search was for. `not_a_person`: something of another shape was.
+    """
 
     name: str
     status: str
@@ -39,7 +43,11 @@ class ValueReading(msgspec.Struct, frozen=True, kw_only=True):
     """For a person: whether in reach of the robot that publishes it; None where that is not observed."""
     sigma_m: float | None = None
     """One-sigma horizontal uncertainty, metres."""
+    covariance_m2: tuple[float, float, float] | None = None
+    """Of the horizontal position: xx, xy, yy."""
     looks: int = 0
+    candidates: tuple[Point, ...] = ()
+    """Where somebody or something was seen if there is no position: for a person to choose from, never for a robot."""
     stamp_ns: int
     """Mission time of the observation at its source."""
 

@@ -28,7 +28,7 @@ class Appearance:
     def __init__(self, model: Any, data: Any) -> None:
         self._model, self._data = model, data
         self._names = [model.body(number).name or f"body_{number}" for number in range(model.nbody)]
-        moves = np.asarray(model.body_weldid) != 0
+        moves = (np.asarray(model.body_weldid) != 0) | (np.asarray(model.body_mocapid) >= 0)
         self._moving = np.flatnonzero(moves)
         self._fixed = np.flatnonzero(~moves)
 

@@ -1,10 +1,11 @@
-"""The drone's downward camera: rays cast into the scene give a segmentation image; the victim's centroid is detected.
+"""The drone's downward camera: rays cast into the scene segment the image; what looks like a person is detected.
 
-Needs no OpenGL. Sees only what a camera would: obstacles hide what is behind them. Must not report the victim's place,
-only angles from the optical axis, as the landing-target message has them.
+Needs no OpenGL. Sees only what a camera would: obstacles hide what is behind them. Must not report anybody's place or
+who it is, only angles from the optical axis and the extent in the image, as the landing-target message has them.
 """
 
 import math
+from collections.abc import Iterable
 from typing import Any, NamedTuple
 
 import mujoco
@@ -17,10 +18,11 @@ from crew.sim.scene import GROUND_GROUP
 WIDTH_PX, HEIGHT_PX = 80, 60
 FOCAL_PX = (WIDTH_PX / 2) / math.tan(math.radians(80.0) / 2)  # 80 deg to the sides, 64 deg fore and aft
 RANGE_M = 60.0
+FLATTEST = 0.6  # cosine between the optical axis and the ray of a corner pixel, and less
 
 
 class Detection(NamedTuple):
-    """The target's centre and extent in the image, radians; x forward, y right, from the optical axis (body's down)."""
+    """A target's centre and extent in the image, radians; x forward, y right, from the optical axis (body's down)."""
 
     angle_x_rad: float
     angle_y_rad: float
@@ -29,18 +31,26 @@ class Detection(NamedTuple):
 
 
 class Camera:
-    """Looks along -z of `site` and sees `target`, a body that stands still. Image rows run aft, columns right.
+    """Looks along -z of `site` and detects `targets`, bodies that stand still. Image rows run aft, columns right.
 
-    Unless `every_frame`, only those rays are cast that could meet the target; the result is the same.
+    Unless `every_frame`, only those rays are cast that could meet a target; the result is the same.
     """
 
     def __init__(
-        self, model: Any, data: Any, site: str, target: str, *, seed: int, noise: bool = True, every_frame: bool = False
+        self,
+        model: Any,
+        data: Any,
+        site: str,
+        targets: Iterable[str],
+        *,
+        seed: int,
+        noise: bool = True,
+        every_frame: bool = False,
     ) -> None:
         self._model, self._data = model, data
         self._site = int(model.site(site).id)
         self._carrier = int(model.site_bodyid[self._site])
-        self._target = int(model.body(target).id)
+        self._targets = [int(model.body(target).id) for target in targets]
         self._random = stream(seed, "camera/pixels")
         self._sigma_px = PIXEL_SIGMA if noise else 0.0
         self._every_frame = every_frame
@@ -48,14 +58,17 @@ class Camera:
         self._geomgroup = np.ones(6, dtype=np.uint8)
         self._geomgroup[GROUND_GROUP] = 0  # what lies under all else need not be hit
         self._all = np.arange(WIDTH_PX * HEIGHT_PX)
-        self._centre, self._radius_m = _bounding_sphere(model, data, self._target)
+        self._spheres = [_bounding_sphere(model, data, target) for target in self._targets]
 
-    def detect(self) -> Detection | None:
-        """Take a frame; None if the target is not in it."""
-        pixels = self._all if self._every_frame else self._pixels_near_target()
+    def detect(self) -> list[Detection]:
+        """Take a frame; what is in it, from the front of the image to its back."""
+        pixels = self._all if self._every_frame else self._pixels_near_targets()
         if len(pixels) == 0:
-            return None
-        return self._centroid(pixels[self._cast(pixels) == self._target])
+            return []
+        hits = self._cast(pixels)
+        blobs = [pixels[hits == target] for target in self._targets]
+        found = [self._centroid(blob) for blob in blobs if len(blob)]
+        return sorted(found, key=lambda detection: -detection.angle_x_rad)
 
     def image(self) -> NDArray[np.int32]:
         """The body seen by each pixel, (HEIGHT_PX, WIDTH_PX); -1 where nothing but ground or sky is."""
@@ -71,22 +84,26 @@ class Camera:
         )  # fmt: skip
         return np.where(hits >= 0, self._model.geom_bodyid[hits], -1).astype(np.int32)
 
-    def _pixels_near_target(self) -> NDArray[np.intp]:
-        """Those whose rays meet the target's bounding sphere: no other can show the target."""
-        offset = self._rotation().T @ (self._centre - self._data.site_xpos[self._site])
-        distance = float(np.linalg.norm(offset))
-        if distance <= self._radius_m:
-            return self._all
-        cosine = math.sqrt(1.0 - (self._radius_m / distance) ** 2)
-        return np.flatnonzero(self._rays @ (offset / distance) >= cosine)
+    def _pixels_near_targets(self) -> NDArray[np.intp]:
+        """Those whose rays meet a target's bounding sphere: no other can show a target."""
+        near: NDArray[np.bool_] | None = None
+        for centre, radius_m in self._spheres:
+            offset = self._rotation().T @ (centre - self._data.site_xpos[self._site])
+            distance = float(np.linalg.norm(offset))
+            if distance <= radius_m:
+                return self._all
+            cosine = math.sqrt(1.0 - (radius_m / distance) ** 2)
+            if -offset[2] < distance * FLATTEST - radius_m:
+                continue
+            meets = self._rays @ (offset / distance) >= cosine
+            near = meets if near is None else near | meets
+        return self._all[:0] if near is None else np.flatnonzero(near)
 
     def _rotation(self) -> NDArray[np.float64]:
         """Camera to world, from the true attitude."""
         return np.asarray(self._data.site_xmat[self._site].reshape(3, 3))
 
-    def _centroid(self, pixels: NDArray[np.intp]) -> Detection | None:
-        if len(pixels) == 0:
-            return None
+    def _centroid(self, pixels: NDArray[np.intp]) -> Detection:
         rows, columns = np.divmod(pixels, WIDTH_PX)
         row = float(rows.mean()) + self._random.gauss(0.0, 1.0) * self._sigma_px
         column = float(columns.mean()) + self._random.gauss(0.0, 1.0) * self._sigma_px

@@ -6,8 +6,9 @@ import msgspec
 class WorldConfig(msgspec.Struct, frozen=True, kw_only=True):
     """links: robot to `udp:HOST:PORT`, where its ground side listens.
 
-    noise off gives perfect estimates and pixels. every_frame casts all of the camera's rays, those that cannot meet the
-    victim as well.
+    autopilots: vehicle to `px4` or `ardupilot`; one left out has the scene's own. noise off gives perfect estimates
+    and pixels. every_frame casts all of the camera's rays, those that cannot meet a target as well. signing_keys:
+    vehicle to the 32 bytes that its link is signed with; an unsigned link is the default.
     """
 
     map: str = "A"
@@ -17,3 +18,5 @@ class WorldConfig(msgspec.Struct, frozen=True, kw_only=True):
     noise: bool = True
     every_frame: bool = False
     links: dict[str, str]
+    autopilots: dict[str, str] = {}
+    signing_keys: dict[str, bytes] = {}

@@ -5,6 +5,7 @@ World frame: ENU, metres, z up, ground at z = 0; yaw in radians, counter-clockwi
 
 import difflib
 import math
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -16,6 +17,8 @@ from ruamel.yaml.error import YAMLError
 MAPS = Path(__file__).parent / "maps"
 
 Length = Annotated[float, Meta(gt=0.0, le=100.0)]
+Disc = tuple[float, float, float]
+"""x, y, radius: world ENU, metres."""
 
 
 class MapError(ValueError):
@@ -62,6 +65,18 @@ class Box(Spot, tag_field="shape", tag="box", frozen=True, kw_only=True):
     def reach_m(self) -> float:
         return math.hypot(self.size_m[0], self.size_m[1]) / 2
 
+    @property
+    def discs(self) -> tuple[Disc, ...]:
+        """A row of discs along the longer side: one disc around a long box would close the way past it."""
+        length_m, width_m, _ = self.size_m
+        along = self.yaw_rad if length_m >= width_m else self.yaw_rad + math.pi / 2
+        long_m, short_m = max(length_m, width_m), min(length_m, width_m)
+        count = math.ceil(long_m / short_m)
+        piece_m = long_m / count
+        offsets = [(i + 0.5) * piece_m - long_m / 2 for i in range(count)]
+        radius_m = math.hypot(piece_m, short_m) / 2
+        return tuple((self.x_m + o * math.cos(along), self.y_m + o * math.sin(along), radius_m) for o in offsets)
+
 
 class Cylinder(Spot, tag_field="shape", tag="cylinder", frozen=True, kw_only=True):
     name: str
@@ -71,6 +86,10 @@ class Cylinder(Spot, tag_field="shape", tag="cylinder", frozen=True, kw_only=Tru
     @property
     def reach_m(self) -> float:
         return self.radius_m
+
+    @property
+    def discs(self) -> tuple[Disc, ...]:
+        return ((self.x_m, self.y_m, self.radius_m),)
 
 
 class Tree(Spot, tag_field="shape", tag="tree", frozen=True, kw_only=True):
@@ -85,11 +104,20 @@ class Tree(Spot, tag_field="shape", tag="tree", frozen=True, kw_only=True):
     def reach_m(self) -> float:
         return self.trunk_radius_m
 
+    @property
+    def discs(self) -> tuple[Disc, ...]:
+        return ((self.x_m, self.y_m, self.trunk_radius_m),)
+
 
 Obstacle = Box | Cylinder | Tree
 
 
 class Map(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """obstacles are what a surveyor knows, surprises what a fault of that name puts there and nobody knows.
+
+    people: others than the victim. decoys: what a detector takes for a person's colours, in another shape.
+    """
+
     name: str
     scene: str
     origin: Origin
@@ -97,6 +125,9 @@ class Map(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True)
     victim: Spot
     robots: dict[str, Spawn]
     obstacles: tuple[Obstacle, ...] = ()
+    people: tuple[Spot, ...] = ()
+    decoys: tuple[Box | Cylinder, ...] = ()
+    surprises: dict[str, tuple[Box | Cylinder, ...]] = {}
 
 
 def load_map(scene: str, name: str, folder: Path = MAPS) -> Map:
@@ -114,7 +145,7 @@ def survey(scene: str, name: str) -> tuple[tuple[float, float, float], tuple[tup
     """Origin, and a disc x, y, radius for each obstacle."""
     found = load_map(scene, name)
     origin = (found.origin.lat_deg, found.origin.lon_deg, found.origin.alt_m)
-    return origin, tuple((o.x_m, o.y_m, o.reach_m) for o in found.obstacles)
+    return origin, tuple(disc for obstacle in found.obstacles for disc in obstacle.discs)
 
 
 def parse_map(text: str, source: str = "map") -> Map:
@@ -137,13 +168,22 @@ def _check(found: Map, source: str) -> None:
         raise MapError(f"{source}: $.area: a minimum is not below its maximum")
     spots: dict[str, Spot] = {f"$.robots.{name}": spawn for name, spawn in found.robots.items()}
     spots["$.victim"] = found.victim
+    spots |= {f"$.people[{index}]": person for index, person in enumerate(found.people)}
     for field, spot in spots.items():
         if not area.contains(spot.x_m, spot.y_m):
             raise MapError(f"{source}: {field}: ({spot.x_m}, {spot.y_m}) lies outside $.area")
         for obstacle in found.obstacles:
             if math.hypot(spot.x_m - obstacle.x_m, spot.y_m - obstacle.y_m) < obstacle.reach_m:
                 raise MapError(f"{source}: {field}: ({spot.x_m}, {spot.y_m}) lies within obstacle {obstacle.name}")
-    names = [obstacle.name for obstacle in found.obstacles]
-    for index, obstacle_name in enumerate(names):
-        if obstacle_name in names[:index]:
-            raise MapError(f"{source}: $.obstacles[{index}].name: {obstacle_name} is used twice")
+    names: set[str] = set()
+    for field, thing in _named(found):
+        if thing.name in names:
+            raise MapError(f"{source}: {field}.name: {thing.name} is used twice")
+        names.add(thing.name)
+
+
+def _named(found: Map) -> Iterator[tuple[str, Obstacle]]:
+    groups: dict[str, tuple[Obstacle, ...]] = {"$.obstacles": found.obstacles, "$.decoys": found.decoys}
+    groups |= {f"$.surprises.{fault}": things for fault, things in found.surprises.items()}
+    for group, things in groups.items():
+        yield from ((f"{group}[{index}]", thing) for index, thing in enumerate(things))

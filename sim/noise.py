@@ -14,6 +14,10 @@ ODOMETRY_TAU_S = 20.0
 POSE_REFERENCE_SIGMA_M = 0.1  # rover: the absolute reference, each axis
 POSE_REFERENCE_PERIOD_S = 1.0
 PIXEL_SIGMA = 1.0  # detection, each image axis
+LIDAR_SIGMA_M = 0.01
+GUST_SIGMA_N = 1.2  # wind gusts, each horizontal axis: enough to tilt the drone by 5 deg
+GUST_TAU_S = 2.0
+GUST_MEAN_N = 1.0  # and a steady wind, whose direction depends on the seed
 
 
 def stream(seed: int, name: str) -> Random:

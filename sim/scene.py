@@ -6,12 +6,13 @@ from typing import Any
 
 import mujoco
 
-from crew.sim.map import Box, Cylinder, Map, MapError, Obstacle, Tree
+from crew.sim.map import Box, Cylinder, Map, MapError, Obstacle, Spot, Tree
 
 MODELS = Path(__file__).parent / "models"
 ROBOTS: dict[str, dict[str, float]] = {"air_ground": {"iris": 0.10, "tb3": 0.0}}  # spawn height of the body's origin
 TIMESTEP_NS = 4_000_000
 GROUND_GROUP = 1  # geoms that the camera need not see; all others are in group 0
+HIDDEN_M = -20.0
 AIR_DENSITY, AIR_VISCOSITY = 1.2, 1.8e-5  # kg/m^3, Pa s: drag
 
 
@@ -25,12 +26,43 @@ def build(found: Map) -> Any:
     spec.option.density, spec.option.viscosity = AIR_DENSITY, AIR_VISCOSITY
     _add_ground(spec)
     for obstacle in found.obstacles:
-        _add_obstacle(spec, obstacle)
-    _attach(spec, "victim", (found.victim.x_m, found.victim.y_m, 0.0), 0.0)
+        _add_obstacle(spec, obstacle, "obstacle")
+    for decoy in found.decoys:
+        _add_obstacle(spec, decoy, "decoy")
+    for surprise in (thing for things in found.surprises.values() for thing in things):
+        _add_obstacle(spec, surprise, "surprise", hidden=True)
+    for name, person in people(found).items():
+        _attach(spec, "victim", (person.x_m, person.y_m, 0.0), 0.0, prefix=name)
     for name, height_m in robots(found).items():
         spawn = found.robots[name]
         _attach(spec, name, (spawn.x_m, spawn.y_m, height_m), spawn.yaw_rad)
     return spec.compile()
+
+
+def people(found: Map) -> dict[str, Spot]:
+    """Everybody on the map, by the prefix of their bodies' names; `victim` is the one that is looked for."""
+    return {"victim": found.victim, **{f"person_{index}": spot for index, spot in enumerate(found.people)}}
+
+
+def seen_bodies(found: Map) -> tuple[str, ...]:
+    """The bodies that the camera's detector answers to: people, and what has their colours."""
+    return (*(f"{name}/person" for name in people(found)), *(f"decoy/{decoy.name}" for decoy in found.decoys))
+
+
+class Surprises:
+    """What a fault puts on the ground: bodies that wait below it until they are raised."""
+
+    def __init__(self, found: Map, model: Any, data: Any) -> None:
+        self._heights = data.mocap_pos[:, 2]
+        self._ids = {
+            fault: [int(model.body_mocapid[model.body(f"surprise/{thing.name}").id]) for thing in things]
+            for fault, things in found.surprises.items()
+        }
+
+    def show(self, fault: str, on: bool) -> None:
+        """Raise or sink what belongs to a fault; a map need not have anything for it."""
+        for body in self._ids.get(fault, ()):
+            self._heights[body] = 0.0 if on else HIDDEN_M
 
 
 def robots(found: Map) -> dict[str, float]:
@@ -55,8 +87,9 @@ def _add_ground(spec: Any) -> None:
     )
 
 
-def _add_obstacle(spec: Any, obstacle: Obstacle) -> None:
-    body = spec.worldbody.add_body(name=f"obstacle/{obstacle.name}", pos=[obstacle.x_m, obstacle.y_m, 0.0])
+def _add_obstacle(spec: Any, obstacle: Obstacle, group: str, *, hidden: bool = False) -> None:
+    pos = [obstacle.x_m, obstacle.y_m, HIDDEN_M if hidden else 0.0]
+    body = spec.worldbody.add_body(name=f"{group}/{obstacle.name}", pos=pos, mocap=hidden)
     match obstacle:
         case Box(size_m=(length, width, height), yaw_rad=yaw):
             body.quat = _yaw_quaternion(yaw)
@@ -81,10 +114,10 @@ def _add_tree(body: Any, tree: Tree) -> None:
     )
 
 
-def _attach(spec: Any, name: str, pos: tuple[float, float, float], yaw_rad: float) -> None:
+def _attach(spec: Any, name: str, pos: tuple[float, float, float], yaw_rad: float, prefix: str = "") -> None:
     child = mujoco.MjSpec.from_file(str(MODELS / f"{name}.xml"))
     frame = spec.worldbody.add_frame(pos=list(pos), quat=_yaw_quaternion(yaw_rad))
-    spec.attach(child, prefix=f"{name}/", frame=frame)
+    spec.attach(child, prefix=f"{prefix or name}/", frame=frame)
 
 
 def _yaw_quaternion(yaw_rad: float) -> list[float]:

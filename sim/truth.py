@@ -8,7 +8,7 @@ import msgspec
 class RobotTruth(msgspec.Struct, frozen=True, kw_only=True):
     """World frame: ENU, metres; z of the sole above the ground; yaw in radians, counter-clockwise from east.
 
-    contacts: how often the robot has begun to touch an obstacle or the victim since the start.
+    contacts: how often the robot has begun to touch an obstacle, a person or another robot since the start.
     """
 
     x_m: float
@@ -26,6 +26,7 @@ class Truth(msgspec.Struct, frozen=True, kw_only=True):
     robots: dict[str, RobotTruth]
     victim_x_m: float
     victim_y_m: float
+    people: dict[str, tuple[float, float]]
 
 
 class SceneTruth(msgspec.Struct, frozen=True, kw_only=True):
@@ -41,7 +42,8 @@ class ContactCounter:
 
     def __init__(self, model: Any, robot: str) -> None:
         self._own = _geoms(model, f"{robot}/")
-        self._others = _geoms(model, "obstacle/") | _geoms(model, "victim/")
+        ground = {geom for geom in range(model.ngeom) if int(model.geom_bodyid[geom]) == 0}
+        self._others = set(range(model.ngeom)) - ground - self._own
         self._touching: set[int] = set()
         self.count = 0
 

@@ -3,32 +3,39 @@
 Synchronous and single-threaded, the only owner of MjData. Must not read the wall clock, sleep, or know the bus.
 """
 
+from collections.abc import Mapping
 from types import TracebackType
 from typing import Any, Self
 
 import mujoco
 
 from crew.sim.appearance import Appearance
-from crew.sim.autopilot.ardupilot import ArduPilotRover
 from crew.sim.autopilot.autopilot import Autopilot
+from crew.sim.autopilot.copter import Copter
+from crew.sim.autopilot.driving import Driving
 from crew.sim.autopilot.link import Link, LinkCount, parse_endpoint
-from crew.sim.autopilot.px4 import Px4Quadcopter
+from crew.sim.autopilot.registry import QUADCOPTERS, ROVERS, choose
 from crew.sim.camera import Camera
 from crew.sim.config import WorldConfig
 from crew.sim.faults import Faults
 from crew.sim.geo import GeoFrame
+from crew.sim.lidar import Lidar
 from crew.sim.map import Map, load_map
-from crew.sim.scene import TIMESTEP_NS, build, robots
+from crew.sim.scene import TIMESTEP_NS, Surprises, build, people, robots, seen_bodies
 from crew.sim.truth import ContactCounter, RobotTruth, SceneTruth, Truth
 from crew.sim.vehicle.estimator import DroneEstimator, RoverEstimator
 from crew.sim.vehicle.quadcopter import Quadcopter
 from crew.sim.vehicle.rover import Rover
+from crew.sim.wind import Wind
 
 CONTROL_STEPS = 5  # physics steps to a control tick: 50 Hz
-FRAME_TICKS = 10  # control ticks to a camera frame: 5 Hz
+FRAME_TICKS = 10  # control ticks to a camera frame and to a scan: 5 Hz
 FAST_S = TIMESTEP_NS * 1e-9
 SLOW_S = CONTROL_STEPS * FAST_S
 BATTERY_LOW = 0.12
+SYSTEMS = {"iris": 1, "tb3": 2}
+"""MAVLink system ids."""
+SURPRISES = ("blocked_path", "unmapped_obstacle")
 
 
 class World:
@@ -43,7 +50,9 @@ class World:
         names = sorted(robots(self.map))
         if set(config.links) != set(names):
             raise ValueError(f"links: has {sorted(config.links)}, the scene needs {names}")
-        endpoints = {name: parse_endpoint(text) for name, text in config.links.items()}
+        if unknown := (set(config.autopilots) | set(config.signing_keys)) - set(names):
+            raise ValueError(f"the scene has no vehicle {', '.join(sorted(unknown))}; it has {', '.join(names)}")
+        self._endpoints = {name: parse_endpoint(text) for name, text in config.links.items()}
         self._faults = Faults(names, config.faults)
         self._model: Any = build(self.map)
         self._data: Any = mujoco.MjData(self._model)
@@ -56,19 +65,16 @@ class World:
             self._model, self._data, "tb3", RoverEstimator(config.seed, "tb3", SLOW_S, config.noise), SLOW_S
         )
         self._camera = Camera(
-            self._model, self._data, "iris/camera", "victim/person",
+            self._model, self._data, "iris/camera", seen_bodies(self.map),
             seed=config.seed, noise=config.noise, every_frame=config.every_frame,
         )  # fmt: skip
+        self._lidar = Lidar(self._model, self._data, "tb3/scanner", seed=config.seed, noise=config.noise)
+        self._surprises = Surprises(self.map, self._model, self._data)
+        self._wind = Wind(self._data, self._drone.body.id, config.seed, "iris", SLOW_S)
         self._contacts = {name: ContactCounter(self._model, name) for name in names}
-        geo = GeoFrame(self.map.origin)
-        spawns = {name: (spawn.x_m, spawn.y_m) for name, spawn in self.map.robots.items()}
-        self._px4 = Px4Quadcopter(
-            self._drone, Link(endpoints["iris"], Px4Quadcopter.system), geo, spawns["iris"], self._faults
-        )
-        self._ardupilot = ArduPilotRover(
-            self._rover, Link(endpoints["tb3"], ArduPilotRover.system), geo, spawns["tb3"], self._faults
-        )
-        self._autopilots: dict[str, Autopilot] = {"iris": self._px4, "tb3": self._ardupilot}
+        self._copter: Copter = self._autopilot("iris", self._drone, QUADCOPTERS)
+        self._driving: Driving = self._autopilot("tb3", self._rover, ROVERS)
+        self._autopilots: dict[str, Autopilot] = {"iris": self._copter, "tb3": self._driving}
 
     @property
     def time_ns(self) -> int:
@@ -99,6 +105,7 @@ class World:
             robots={"iris": self._robot_truth("iris", self._drone), "tb3": self._robot_truth("tb3", self._rover)},
             victim_x_m=victim.x_m,
             victim_y_m=victim.y_m,
+            people={name: (spot.x_m, spot.y_m) for name, spot in people(self.map).items()},
         )
 
     def sent(self) -> dict[str, int]:
@@ -139,6 +146,10 @@ class World:
 
     def _control_tick(self) -> None:
         tick = self._steps // CONTROL_STEPS
+        self._faults.advance(self.time_ns)
+        for fault in SURPRISES:
+            self._surprises.show(fault, self._faults.is_on(fault))
+        self._wind.step(self._faults.is_on("wind_gusts"))
         if self._faults.is_on("battery_low"):
             self._drone.battery.fraction = min(self._drone.battery.fraction, BATTERY_LOW)
         self.poll()
@@ -151,13 +162,21 @@ class World:
             autopilot.tick(self.time_ns)
         if tick % FRAME_TICKS == 0:
             self._take_frame()
+            self._scan()
 
     def _take_frame(self) -> None:
         if self._faults.is_on("missed_detection"):
             return
-        detection = self._camera.detect()
-        if detection is not None:
-            self._px4.report_target(detection)
+        self._copter.report_targets(self._camera.detect())
+
+    def _scan(self) -> None:
+        self._driving.report_scan(self._lidar.scan())
+
+    def _autopilot(self, name: str, vehicle: Quadcopter | Rover, known: Mapping[str, Any]) -> Any:
+        make = choose(name, self.config.autopilots.get(name), known)
+        link = Link(self._endpoints[name], SYSTEMS[name], key=self.config.signing_keys.get(name))
+        spawn = self.map.robots[name]
+        return make(vehicle, link, GeoFrame(self.map.origin), (spawn.x_m, spawn.y_m), self._faults)
 
     def _robot_truth(self, name: str, vehicle: Quadcopter | Rover) -> RobotTruth:
         s = vehicle.body.read()

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 
 from crew.bus.port import Bus, Qos
 from crew.clock import Clock
+from crew.contracts.gate.sighting import places
 from crew.contracts.mission import event as ev
 from crew.contracts.mission.provenance import sources
 from crew.contracts.mission_state import ENDS, MissionState, Phase, StepPhase
@@ -136,6 +137,7 @@ class Announcer:
             "end",
             f"{new.phase}: {new.message}",
             code=_code(new),
+            question=None if new.refusal is None else new.refusal.question or None,
             steps=self.steps(new),
             contract=new.contract or None,
             outcome=str(new.phase),
@@ -209,7 +211,8 @@ def describe_value(reading: ValueReading, source: str) -> str:
     """A run-time value in a sentence."""
     position = reading.position
     if reading.status != "ok" or position is None:
-        return f"{source} reports {reading.name}: {reading.status}"
+        seen = f" at {places(reading.candidates)}" if reading.candidates else ""
+        return f"{source} reports {reading.name}: {reading.status}{seen}"
     if not (math.isfinite(position.x) and math.isfinite(position.y)):
         return f"{source} reports {reading.name} at ({position.x}, {position.y}): not a place"
     sigma = f" +- {reading.sigma_m:.2f} m" if reading.sigma_m is not None else ""

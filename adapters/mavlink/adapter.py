@@ -43,6 +43,7 @@ class MavlinkAdapter:
         self._safe: Permit | None = None
         self._braking: asyncio.Task[None] | None = None
         self._brake_fault = ""
+        self._taken_over = ""
         self._doubted_ns = 0
         self._halted_ns = 0
         self._repeater = StopRepeater(self._send_stop, lambda: self._still_since(self._halted_ns), self._latch.lock)
@@ -57,7 +58,7 @@ class MavlinkAdapter:
             await self._vehicle.close()
             raise
         self._skills = self._new_skills()
-        self._brake_fault = ""
+        self._brake_fault = self._taken_over = ""
 
     async def close(self) -> None:
         """End a running skill, stopping the vehicle, and let the link go."""
@@ -74,7 +75,9 @@ class MavlinkAdapter:
             self._require_fit(skill, run)
             await self._ready().perform(args, places, run)
         except AdapterError as error:
-            if error.code not in HANDS_OFF:
+            if error.code in HANDS_OFF:
+                self._leave_alone(error)
+            else:
                 self._abandon(run, error)
             raise
         except BaseException:
@@ -91,11 +94,16 @@ class MavlinkAdapter:
         await self._ended()
 
     async def safe(self, behaviour: str) -> None:
-        """`hover` and `stop` brake, `land` lands, `hover_then_land` brakes, waits and lands. Allowed while latched."""
+        """`hover` and `stop` brake, `land` lands, `hover_then_land` brakes, waits and lands. Allowed while latched.
+
+        A vehicle that somebody else has taken over is left to them, unless the crew's own stop is latched.
+        """
         if behaviour not in SAFE_BEHAVIOURS:
             raise AdapterError(
                 f"no safe behaviour {behaviour!r}{nearest(behaviour, SAFE_BEHAVIOURS)}", code="bad_argument"
             )
+        if self._pilot() and not self._latch.latched:
+            return
         run = self._run_for(self._begin_safe())
         try:
             if behaviour != "land":
@@ -132,6 +140,7 @@ class MavlinkAdapter:
         with self._latch.lock:
             self._repeater.finish()
             self._latch.clear()
+            self._taken_over = ""
 
     @property
     def latched(self) -> bool:
@@ -147,7 +156,9 @@ class MavlinkAdapter:
 
     def health(self) -> str:
         """Empty if the robot can take a skill, otherwise the reason in a few words."""
-        return (self._vehicle.fault() or self._motion_doubt()) if self._skills else "not connected"
+        if self._skills is None:
+            return "not connected"
+        return self._vehicle.link_fault() or self._pilot() or self._vehicle.fault() or self._motion_doubt()
 
     def link_counts(self) -> tuple[int, int]:
         """Datagrams sent and received."""
@@ -229,6 +240,8 @@ class MavlinkAdapter:
 
     def _require_fit(self, skill: str, run: Run) -> None:
         run.check()
+        if pilot := self._pilot():
+            raise AdapterError(f"{self._config.robot}: {skill} not started: {pilot}", code="robot_unavailable")
         if skill in self._ready().unconditional:
             return
         if fault := self._vehicle.fault():
@@ -248,6 +261,16 @@ class MavlinkAdapter:
             return
         self._send_stop()
         self._braking = asyncio.get_running_loop().create_task(self._brake_after_failure())
+
+    def _leave_alone(self, error: AdapterError) -> None:
+        """A pilot, a failsafe or another station has the vehicle: send nothing until it is down."""
+        self._taken_over = f"somebody else has control: {error}; reset the robot when it is yours again (crew reset)"
+
+    def _pilot(self) -> str:
+        """Why the vehicle is somebody else's; empty once it stands disarmed."""
+        if self._taken_over and not self._vehicle.telemetry.armed:
+            self._taken_over = ""
+        return self._taken_over
 
     async def _brake_after_failure(self) -> None:
         try:

@@ -13,7 +13,7 @@ async def brake(run: Run, still_mps: float) -> None:
     """
     vehicle = run.vehicle
     start_ns = vehicle.clock.now_ns()
-    await run.command(vehicle.flavour.stop, leads_to=frozenset({vehicle.flavour.stop_mode}))
+    await run.command(*vehicle.flavour.stops, leads_to=frozenset({vehicle.flavour.stop_mode}))
 
     def still() -> bool:
         motion = vehicle.telemetry.motion

@@ -14,12 +14,17 @@ STEEPEST = math.cos(math.radians(75.0))
 
 
 class Look(msgspec.Struct, frozen=True):
-    """Where one detection points to: world metres, the ray's length, and mission time."""
+    """Where one detection points to: world metres, the ray's length, and mission time.
+
+    frame: equal for detections of one image. extent_m: the larger of its extents across the ray; NaN if not told.
+    """
 
     x_m: float
     y_m: float
     range_m: float
     time_s: float
+    frame: float = -1.0
+    extent_m: float = math.nan
 
 
 def ground_point(pose: Pose, forward_rad: float, right_rad: float, plane_m: float) -> tuple[float, float] | None:

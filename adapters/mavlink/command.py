@@ -8,13 +8,17 @@ import msgspec
 from pymavlink.dialects.v20 import common as mavlink
 
 from crew.adapters.mavlink.statustext import StatusLog
-from crew.adapters.mavlink.writer import Permit, Writer
+from crew.adapters.mavlink.writer import GROUND_SYSTEM, Permit, Writer
 from crew.clock import Clock, seconds_ns, within
 from crew.errors import AdapterError
 
 ANSWER_S = 1.0
 TRIES = 3
 IN_PROGRESS_S = 30.0
+LATE_S = 5.0
+"""An answer that is later than this does not come any more."""
+OURS = (0, GROUND_SYSTEM)
+"""Targets of an answer that is for us; older vehicles leave it 0."""
 REASON_WINDOW_S = 1.0
 """A vehicle says why it refused up to this long before or after the refusal."""
 
@@ -67,6 +71,8 @@ class Commander:
         self._system = system
         self._locks: dict[int, asyncio.Lock] = {}
         self._answers: dict[int, asyncio.Queue[int]] = {}
+        self._late: dict[int, tuple[int, int]] = {}
+        """By command: how many answers to earlier tries may still come, and until when."""
 
     async def send(self, command: Command, permit: Permit | None = None) -> None:
         """Return once the vehicle accepted the command; that says nothing about its completion.
@@ -85,8 +91,22 @@ class Commander:
     def acknowledge(self, message: Any) -> None:
         """Take a COMMAND_ACK; one that nobody waits for is left alone."""
         answers = self._answers.get(message.command)
+        if message.target_system not in OURS or self._is_late(message.command):
+            return
         if answers is not None:
             answers.put_nowait(int(message.result))
+
+    def _is_late(self, command: int) -> bool:
+        """Whether an answer belongs to a try that was given up: it says nothing about the command of now."""
+        count, until_ns = self._late.get(command, (0, 0))
+        if count == 0 or self._clock.now_ns() > until_ns:
+            return False
+        self._late[command] = (count - 1, until_ns)
+        return True
+
+    def _owe(self, command: int, tries: int) -> None:
+        """Of several tries one was answered, or none: the answers of the others may come yet."""
+        self._late[command] = (tries, self._clock.now_ns() + seconds_ns(LATE_S))
 
     async def _ask(self, command: Command, permit: Permit | None, answers: asyncio.Queue[int]) -> int:
         for confirmation in range(TRIES):
@@ -95,7 +115,10 @@ class Commander:
                 result = await within(self._clock, ANSWER_S, answers.get())
             except TimeoutError:
                 continue
-            return await self._final(command, result, answers)
+            result = await self._final(command, result, answers)
+            self._owe(command.id, confirmation)
+            return result
+        self._owe(command.id, TRIES)
         raise AdapterError(
             f"{command.name}: no answer to {TRIES} tries within {TRIES * ANSWER_S:g} s; is the vehicle connected?",
             code="no_answer",

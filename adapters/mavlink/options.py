@@ -15,6 +15,8 @@ Degrees = Annotated[float, Meta(gt=5, lt=160)]
 class VehicleOptions(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """What every vehicle has."""
 
+    signing_key: str = ""
+    """File with the 32 bytes (64 hexadecimal digits) that the link is signed with; without it the link is unsigned."""
     system_id: Annotated[int, Meta(ge=1, le=254)] | None = None
     """MAVLink system; without it, the first vehicle of the right kind that is heard."""
     connect_timeout_s: Positive = 15.0
@@ -35,6 +37,8 @@ class QuadcopterOptions(VehicleOptions, frozen=True, kw_only=True, forbid_unknow
     """Share of the footprint that neighbouring lanes of a sweep have in common."""
     target_height_m: NotNegative = 0.3
     """Height of the plane that detections are projected to, above home."""
+    target_extent_m: tuple[Positive, Positive] = (0.1, 0.8)
+    """The least and the largest extent of a person as seen from any side; a thing outside it is no person."""
     confirm_hover_s: NotNegative = 5.0
     """Time to hover over a fix for a better one; 0 leaves it out."""
     hover_s: NotNegative = 10.0
@@ -48,6 +52,10 @@ class RoverOptions(VehicleOptions, frozen=True, kw_only=True, forbid_unknown_fie
     robot_radius_m: Positive = 0.2
     clearance_m: NotNegative = 0.25
     """Distance to keep from known obstacles, on top of the robot's radius."""
+    front_m: NotNegative = 0.15
+    """From the scanner to the front of the robot."""
+    gap_m: NotNegative = 0.1
+    """It comes no nearer than this to what the scanner sees ahead."""
     cell_m: Annotated[float, Meta(ge=0.05, le=1.0)] = 0.2
     """Cell of the occupancy grid."""
 

@@ -151,7 +151,8 @@ class QuadcopterSkills:
         for x_m, y_m in ((zone.x_min, zone.y_min), (zone.x_max, zone.y_max), *sweep.points):
             check_inside(self._vehicle.config, x_m, y_m, "search_target")
         self._swept = False
-        search = Search(self._vehicle.telemetry, self._options.target_height_m)
+        extent_m = self._options.target_extent_m
+        search = Search(self._vehicle.telemetry, self._options.target_height_m, extent_m, zone)
         await self._fly(run, sweep, args.altitude)
         await self._confirm(run, search, args.altitude, sweep.heading_rad)
         self._values[VICTIM] = search.reading(self._vehicle.clock.now_ns())
@@ -186,11 +187,12 @@ class QuadcopterSkills:
     async def _confirm(self, run: Run, search: Search, height_m: float, heading_rad: float) -> None:
         """Hover over a single fix for looks from straight above."""
         fix = search.fix()
-        if fix is None or fix.ambiguous or search.damaged_ns is not None or self._options.confirm_hover_s == 0:
+        if fix is None or search.damaged_ns is not None or self._options.confirm_hover_s == 0:
             return
         x_min, x_max, y_min, y_max = self._vehicle.config.area
         x_m, y_m = min(max(fix.x_m, x_min), x_max), min(max(fix.y_m, y_min), y_max)
         await self.travel(run, x_m, y_m, height_m, heading_rad)
+        search.hovering(self._vehicle.clock.now_ns())
         await run.hold(self._options.confirm_hover_s)
 
     def _report(self) -> None:
@@ -204,8 +206,8 @@ class QuadcopterSkills:
     async def _leg(self, run: Run, x_m: float, y_m: float, height_m: float, heading_rad: float | None) -> None:
         check_inside(self._vehicle.config, x_m, y_m, "way-point")
         place = self._vehicle.place(x_m, y_m, height_m)
-        command = self._flavour.go_to(place, self._options.cruise_mps, heading_rad)
-        await run.command(command, leads_to=self._flavour.travel_modes)
+        commands = self._flavour.go_to(place, self._options.cruise_mps, heading_rad)
+        await run.go(commands, self._flavour.travel_modes, (x_m, y_m))
 
     def _require_airborne(self, skill: str) -> None:
         airborne = self._vehicle.telemetry.airborne

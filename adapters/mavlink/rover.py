@@ -1,19 +1,20 @@
 """The rover's skills. World ENU, metres."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 from crew.adapter import Place, Reading
 from crew.adapters.mavlink.braking import brake
 from crew.adapters.mavlink.fence import check_inside
 from crew.adapters.mavlink.flavours.flavour import Flavour
 from crew.adapters.mavlink.fluents import common_fluents
-from crew.adapters.mavlink.occupancy import Ground, Spot
+from crew.adapters.mavlink.occupancy import Disc, Ground, Spot
 from crew.adapters.mavlink.options import RoverOptions
 from crew.adapters.mavlink.preflight import check_failsafes
 from crew.adapters.mavlink.route import plan_route
 from crew.adapters.mavlink.run import Run
 from crew.adapters.mavlink.vehicle import Vehicle
+from crew.adapters.mavlink.watch import Watch
 from crew.contracts.kinds.rover import NavigateTo, Stop
 from crew.contracts.skill import SkillArgs
 from crew.contracts.snapshot import ValueReading
@@ -22,11 +23,12 @@ from crew.errors import AdapterError
 MOVING_MPS = 0.1
 STILL_MPS = 0.05
 SETTLE_S = 1.5
-CLOSE_M = 0.1
+CLOSE_M = 0.07
 APPROACHES = 5
 """How often what is left to the goal is driven, once the estimate has settled."""
 PASS_M = 0.25
 """A way-point between two legs is passed, not stopped at, within this distance."""
+DETOURS = 6
 
 
 class RoverSkills:
@@ -69,23 +71,40 @@ class RoverSkills:
         check_inside(self._vehicle.config, place.x, place.y, "navigate_to")
         await check_failsafes(self._flavour, self._vehicle.parameters)
         await self._vehicle.fresh_home()
-        route = self._plan(place)
+        route = self._plan(place, ())
         await run.command(*self._flavour.prepare(), leads_to=self._flavour.travel_modes)
-        for spot in route[:-1]:
-            await self._leg(run, spot, PASS_M, math.inf)
-        await self._approach(run, route[-1])
-        await self.stop(run)
+        met: list[Disc] = []
+        for _ in range(DETOURS):
+            new = await self._drive(run, place, route, met)
+            if not new:
+                await self.stop(run)
+                return
+            met += new
+            await self.stop(run)
+            await run.command(*self._flavour.prepare(), leads_to=self._flavour.travel_modes)
+            route = self._detour(place, met)
+        raise self._blocked(met, f"{DETOURS} detours led nowhere")
 
-    async def _approach(self, run: Run, spot: Spot) -> None:
+    async def _drive(self, run: Run, place: Place, route: list[Spot], met: Sequence[Disc]) -> list[Disc]:
+        """Along a route to its end; or, stopping nowhere, what unknown things have come in its way."""
+        watch = Watch(self._vehicle, place, met, self._options)
+        for spot in route[:-1]:
+            if new := await self._leg(run, spot, PASS_M, math.inf, watch):
+                return new
+        return await self._approach(run, route[-1], watch)
+
+    async def _approach(self, run: Run, spot: Spot, watch: Watch) -> list[Disc]:
         """The last leg. Standing still its position estimate settles and shows what is left: drive that, a few times.
 
-        Raises AdapterError `no_progress` if it still stands further than `arrive_m` from the spot.
+        Raises AdapterError `no_progress` if it still stands further than `arrive_m` from the spot, unless it stands
+        before what it was sent to.
         """
         for _ in range(APPROACHES):
-            await self._leg(run, spot, 2.0 * self._options.arrive_m, STILL_MPS)
-            await run.hold(SETTLE_S)
-            if math.dist(self._here(), spot) < CLOSE_M and self._speed_mps() < STILL_MPS:
-                return
+            if new := await self._leg(run, spot, 2.0 * self._options.arrive_m, STILL_MPS, watch):
+                return new
+            await run.hold(SETTLE_S, over=watch.before_it)
+            if watch.before_it() or (math.dist(self._here(), spot) < CLOSE_M and self._speed_mps() < STILL_MPS):
+                return []
         left_m = math.dist(self._here(), spot)
         if left_m > self._options.arrive_m:
             raise AdapterError(
@@ -93,8 +112,23 @@ class RoverSkills:
                 f"after {APPROACHES} approaches, allowed {self._options.arrive_m:g} m",
                 code="no_progress",
             )
+        return []
 
-    def _plan(self, place: Place) -> list[Spot]:
+    def _detour(self, place: Place, met: Sequence[Disc]) -> list[Spot]:
+        try:
+            return self._plan(place, met)
+        except AdapterError as error:
+            raise self._blocked(met, str(error)) from error
+
+    def _blocked(self, met: Sequence[Disc], why: str) -> AdapterError:
+        x, y, _ = met[-1]
+        return AdapterError(
+            f"{self._vehicle.config.robot}: something that is not on the map stands in the way "
+            f"near ({x:.1f}, {y:.1f}): {why}",
+            code="path_blocked",
+        )
+
+    def _plan(self, place: Place, met: Sequence[Disc]) -> list[Spot]:
         options, config = self._options, self._vehicle.config
         here = self._here()
         edge_m = options.robot_radius_m if config.geofence else -1000.0
@@ -103,7 +137,7 @@ class RoverSkills:
         target = (place.x, place.y)
         ground = Ground(
             area,
-            config.obstacles,
+            (*config.obstacles, *met),
             radius_m=options.robot_radius_m,
             clearance_m=options.clearance_m,
             start=here,
@@ -111,18 +145,20 @@ class RoverSkills:
         )
         return plan_route(ground, here, target, place.standoff_m, options.cell_m)
 
-    async def _leg(self, run: Run, spot: Spot, near_m: float, slow_mps: float) -> None:
-        place = self._vehicle.place(*spot, 0.0)
-        command = self._flavour.go_to(place, self._options.cruise_mps, None)
-        await run.command(command, leads_to=self._flavour.travel_modes)
+    async def _leg(self, run: Run, spot: Spot, near_m: float, slow_mps: float, watch: Watch) -> list[Disc]:
+        commands = self._flavour.go_to(self._vehicle.place(*spot, 0.0), self._options.cruise_mps, None)
+        await run.go(commands, self._flavour.travel_modes, spot)
+        new: list[Disc] = []
 
         def gap_m() -> float:
             return math.dist(self._here(), spot)
 
-        def arrived() -> bool:
-            return gap_m() < near_m and self._speed_mps() < slow_mps
+        def over() -> bool:
+            new.extend(watch.in_the_way(spot))
+            return bool(new) or watch.before_it() or (gap_m() < near_m and self._speed_mps() < slow_mps)
 
-        await run.until(arrived, gap_m, f"drive to ({spot[0]:.1f}, {spot[1]:.1f})")
+        await run.until(over, gap_m, f"drive to ({spot[0]:.1f}, {spot[1]:.1f})")
+        return new
 
     def _here(self) -> Spot:
         motion = self._vehicle.telemetry.motion

@@ -1,5 +1,6 @@
 """One run of a skill: its permit, what it watches, how it waits. Ends by telemetry, never by an acknowledgement."""
 
+import math
 from collections.abc import Callable
 
 import msgspec
@@ -18,7 +19,10 @@ STEP_M = 0.15
 """A gap must shrink by this to count as progress: more than the noise of an estimate over one poll."""
 REASON_WINDOW_S = 3.0
 """A takeover's reason is looked for this long before the heartbeat that showed it."""
-HANDS_OFF = frozenset({"mode_changed"})
+OTHER_AIM_M = 1.5
+"""A target further than this from the one that was sent last is somebody else's."""
+AIM_GRACE_S = 1.5
+HANDS_OFF = frozenset({"mode_changed", "commanded_by_other", "failsafe"})
 """Codes of failures after which the vehicle is another's to command."""
 
 
@@ -41,6 +45,8 @@ class Run:
         """Whether anything that causes motion was sent."""
         self._stall_s = stall_s
         self._expectation: Expectation | None = None
+        self._aim: tuple[float, float] | None = None
+        self._aimed_ns = 0
 
     async def command(self, *commands: Command, leads_to: Modes | None = None) -> None:
         """Send commands in order, each accepted before the next; then hold the vehicle to the modes they lead to."""
@@ -51,6 +57,12 @@ class Run:
         if leads_to is not None:
             self._expect(leads_to)
 
+    async def go(self, commands: tuple[Command, ...], modes: Modes, aim: tuple[float, float]) -> None:
+        """Send the vehicle to a point (world ENU, metres), and hold it to that."""
+        self._aim = None
+        await self.command(*commands, leads_to=modes)
+        self._aim, self._aimed_ns = aim, self.vehicle.clock.now_ns()
+
     def check(self) -> None:
         """Raise why the run is over: stopped or cancelled, vehicle lost, rebooted or out of the area, mode changed."""
         self.permit.check()
@@ -60,6 +72,10 @@ class Run:
         if self._fenced and motion is not None:
             check_breach(self.vehicle.config, motion.value.x_m, motion.value.y_m)
         self._check_mode()
+        if self._fenced:
+            self._check_failsafe()
+            self._check_home()
+            self._check_aim()
 
     async def until(self, done: Callable[[], bool], gap_m: Callable[[], float], what: str) -> None:
         """Wait until `done`. Raises AdapterError `no_progress` when `gap_m` stops shrinking, and what `check` does."""
@@ -106,6 +122,34 @@ class Run:
                 f"{self.vehicle.config.robot}: mode is {mode}, expected {wanted}; a pilot or a failsafe took over",
                 code="mode_changed",
                 reason="; ".join(self.vehicle.telemetry.texts.since(heartbeat.stamp_ns - seconds_ns(REASON_WINDOW_S))),
+            )
+
+    def _check_failsafe(self) -> None:
+        """A failsafe may act without a change of mode."""
+        heartbeat = self.vehicle.telemetry.heartbeat
+        if self.moved and heartbeat is not None and heartbeat.value.critical:
+            since_ns = heartbeat.stamp_ns - seconds_ns(REASON_WINDOW_S)
+            reason = "; ".join(self.vehicle.telemetry.texts.since(since_ns))
+            raise AdapterError(
+                f"{self.vehicle.config.robot}: the vehicle reports a critical state: {reason or 'no reason given'}",
+                code="failsafe",
+                reason=reason,
+            )
+
+    def _check_home(self) -> None:
+        if jump := self.vehicle.telemetry.home_jump:
+            raise AdapterError(f"{self.vehicle.config.robot}: {jump}", code="home_jumped")
+
+    def _check_aim(self) -> None:
+        """The vehicle says where it is going; a target that was not sent from here means another commands it."""
+        told, aim = self.vehicle.telemetry.aim, self._aim
+        if told is None or aim is None or told.stamp_ns < self._aimed_ns + seconds_ns(AIM_GRACE_S):
+            return
+        if math.dist(told.value, aim) > OTHER_AIM_M:
+            raise AdapterError(
+                f"{self.vehicle.config.robot}: it is going to ({told.value[0]:.1f}, {told.value[1]:.1f}) and was sent "
+                f"to ({aim[0]:.1f}, {aim[1]:.1f}); another station commands it",
+                code="commanded_by_other",
             )
 
 

@@ -15,8 +15,9 @@ class Zone(msgspec.Struct, frozen=True):
     y_min: float
     y_max: float
 
-    def contains(self, x_m: float, y_m: float) -> bool:
-        return self.x_min <= x_m <= self.x_max and self.y_min <= y_m <= self.y_max
+    def beyond_m(self, x_m: float, y_m: float) -> float:
+        """How far outside a point lies; 0 inside."""
+        return math.hypot(max(self.x_min - x_m, 0.0, x_m - self.x_max), max(self.y_min - y_m, 0.0, y_m - self.y_max))
 
 
 class Sweep(msgspec.Struct, frozen=True):

@@ -12,13 +12,19 @@ from pymavlink.dialects.v20 import common as mavlink
 
 from crew.adapters.mavlink.frame import WorldFrame
 from crew.adapters.mavlink.statustext import StatusLog
+from crew.adapters.mavlink.surroundings import Scan
 from crew.adapters.mavlink.track import PoseTrack
 from crew.clock import SECOND_NS, Clock
 
 T = TypeVar("T")
 
+SIGHTINGS_MAX = 20_000
+"""Detections kept: an hour of one person at 5 Hz; the older half goes first."""
+
 REBOOT_STEP_MS = 1000
 """Boot time further back than reordered datagrams explain."""
+HOME_JUMP_M = 2.0
+"""A home that moves further than this in flight is not a correction: heights and fences count from it."""
 
 
 class Sample(msgspec.Struct, Generic[T], frozen=True):
@@ -63,16 +69,26 @@ class Home(msgspec.Struct, frozen=True):
 
 
 class Sighting(msgspec.Struct, frozen=True):
-    """A detection: angles from the downward optical axis towards body x (forward) and y (right), radians."""
+    """A detection: angles from the downward optical axis towards body x (forward) and y (right), radians.
+
+    Detections with one `boot_s` are of one frame, and of different things.
+    """
 
     forward_rad: float
     right_rad: float
     boot_s: float
     stamp_ns: int
+    size_rad: tuple[float, float] = (0.0, 0.0)
+    """Extents in the image, fore-aft and across."""
 
     @property
     def finite(self) -> bool:
         return math.isfinite(self.forward_rad) and math.isfinite(self.right_rad)
+
+    @property
+    def extent_rad(self) -> float:
+        """The larger of its two extents in the image; NaN if the detector does not tell."""
+        return max(self.size_rad) if min(self.size_rad) > 0 else math.nan
 
 
 class Telemetry:
@@ -87,6 +103,11 @@ class Telemetry:
         self.heading: Sample[float] | None = None
         """Radians clockwise from north."""
         self.home: Sample[Home] | None = None
+        self.home_jump = ""
+        """Why heights mean nothing any more: home moved while the vehicle was in the air."""
+        self.aim: Sample[tuple[float, float]] | None = None
+        """Where the vehicle says that it is going, world ENU."""
+        self.scan: Sample[Scan] | None = None
         self.landed_state: Sample[int] | None = None
         self.sensors_bad: Sample[int] | None = None
         """MAV_SYS_STATUS_SENSOR bits that are present and unhealthy."""
@@ -106,6 +127,8 @@ class Telemetry:
             "GLOBAL_POSITION_INT": self._take_position,
             "ATTITUDE": self._take_attitude,
             "LANDING_TARGET": self._take_sighting,
+            "POSITION_TARGET_GLOBAL_INT": self._take_aim,
+            "OBSTACLE_DISTANCE": self._take_scan,
         }
 
     def take(self, message: Any) -> None:
@@ -165,7 +188,29 @@ class Telemetry:
 
     def _take_home(self, message: Any) -> None:
         x_m, y_m = self._frame.to_world(message.latitude / 1e7, message.longitude / 1e7)
-        self.home = self._sample(Home(x_m, y_m, message.altitude / 1e3))
+        home = Home(x_m, y_m, message.altitude / 1e3)
+        if self.home is not None and self.airborne is not None and self.airborne.value:
+            self._watch_home(self.home.value, home)
+        self.home = self._sample(home)
+
+    def _watch_home(self, old: Home, new: Home) -> None:
+        moved_m = math.dist((old.x_m, old.y_m, old.amsl_m), (new.x_m, new.y_m, new.amsl_m))
+        if moved_m > HOME_JUMP_M:
+            self.home_jump = f"home jumped by {moved_m:.1f} m in flight: heights mean nothing; land and reconnect"
+
+    def _take_scan(self, message: Any) -> None:
+        """The far limit itself, one more and 65535 all say that nothing was met."""
+        step_deg = message.increment_f or float(message.increment)
+        if not (0.0 < abs(step_deg) <= 180.0 and math.isfinite(message.angle_offset)):
+            self.dropped += 1
+            return
+        far_cm = message.max_distance
+        ranges_m = tuple(cm / 100.0 if cm <= far_cm else math.inf for cm in message.distances)
+        self.scan = self._sample(Scan(ranges_m, math.radians(message.angle_offset), math.radians(step_deg)))
+
+    def _take_aim(self, message: Any) -> None:
+        if message.lat_int or message.lon_int:
+            self.aim = self._sample(self._frame.to_world(message.lat_int / 1e7, message.lon_int / 1e7))
 
     def _take_position(self, message: Any) -> None:
         if (message.lat == 0 and message.lon == 0) or abs(message.lat) > 900_000_000:
@@ -190,4 +235,7 @@ class Telemetry:
         now = self._boot_ms / 1e3
         told = message.time_usec / 1e6
         boot_s = told if abs(told - now) < 10.0 else now
-        self.sightings.append(Sighting(float(message.angle_x), float(message.angle_y), boot_s, self._clock.now_ns()))
+        if len(self.sightings) >= SIGHTINGS_MAX:
+            del self.sightings[: SIGHTINGS_MAX // 2]
+        angles, size = (float(message.angle_x), float(message.angle_y)), (float(message.size_x), float(message.size_y))
+        self.sightings.append(Sighting(*angles, boot_s, self._clock.now_ns(), size))

@@ -24,6 +24,8 @@ T = TypeVar("T")
 
 POLL_S = 0.05
 HEARTBEAT_PERIOD_S = 1.0
+ON_BOARD = frozenset({"LANDING_TARGET", "OBSTACLE_DISTANCE"})
+"""Messages that a computer on board sends under the vehicle's system id; all else must come from the autopilot."""
 FIT_S = 2.0
 """A vehicle's health follows its first contact with the ground by up to this long."""
 
@@ -87,9 +89,10 @@ class Vehicle:
         self.link.close()
 
     def send_stop(self) -> None:
-        """Send the flavour's stop once, from any thread, without waiting; nothing if no vehicle was found yet."""
+        """Send the flavour's stops once, from any thread, without waiting; nothing if no vehicle was found yet."""
         if self._flavour is not None:
-            self.link.writer.send_stop(self._flavour.stop.message(self._found.get_srcSystem(), 0))
+            for command in self._flavour.stops:
+                self.link.writer.send_stop(command.message(self._found.get_srcSystem(), 0))
 
     def link_fault(self) -> str:
         """Why the vehicle cannot be followed; empty if it can."""
@@ -130,9 +133,9 @@ class Vehicle:
         return find_flavour(self.config.kind, heartbeat.autopilot, heartbeat.type) is not None
 
     def _take(self, message: Any) -> None:
-        if message.get_srcComponent() != mavlink.MAV_COMP_ID_AUTOPILOT1:
-            return
         kind = message.get_type()
+        if message.get_srcComponent() != mavlink.MAV_COMP_ID_AUTOPILOT1 and kind not in ON_BOARD:
+            return
         if kind == "HEARTBEAT" and self._found is None:
             self._found = message
         elif kind == "COMMAND_ACK" and self._commander is not None:

@@ -80,4 +80,8 @@ def _robots(model: CrewModel) -> tuple[RobotSpec, ...]:
 
 def _sim(model: CrewModel) -> SimSpec | None:
     sim = model.sim
-    return None if sim is None else SimSpec(scene=sim.scene, map=sim.map, seed=sim.seed, faults=tuple(sim.faults))
+    if sim is None:
+        return None
+    return SimSpec(
+        scene=sim.scene, map=sim.map, seed=sim.seed, faults=tuple(sim.faults), autopilots=dict(sim.autopilots)
+    )

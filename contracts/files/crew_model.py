@@ -83,7 +83,10 @@ class SimModel(FileModel):
     scene: Text
     map: Text = "A"
     seed: Annotated[int, Field(ge=0)] = 0
-    faults: list[Text] = Field(default_factory=list)
+    faults: list[Text] = Field(default_factory=list, description="Names, or name@seconds for one that begins later")
+    autopilots: dict[Name, Text] = Field(
+        default_factory=dict, description="Vehicle to its autopilot, such as px4 or ardupilot"
+    )
 
 
 class CrewModel(FileModel):

@@ -5,6 +5,7 @@ import math
 from crew.contracts.codes import Code
 from crew.contracts.gate.guard import age
 from crew.contracts.gate.scope import is_position, skill_of
+from crew.contracts.gate.sighting import question, why_no_position
 from crew.contracts.mission_state import MissionState
 from crew.contracts.plan import Call, InstanceStep, Zone
 from crew.contracts.refusal import Refusal
@@ -31,7 +32,12 @@ def check_values(
             message = f"{call.robot}.{call.skill} needs a fix of {name}: {outcome}"
             code = Code.NO_TARGET_FIX if is_position(name, rules) else Code.NO_VALUE
             return Refusal(
-                code=code, message=message, field=f"args.{param.name}", observed=outcome, allowed="a fresh fix"
+                code=code,
+                message=message,
+                field=f"args.{param.name}",
+                observed=outcome,
+                allowed="a fresh fix",
+                question=question(name, world.values.get(name)),
             )
         excluded = next((z for z in mission.reading.excluded_areas if z.contains(outcome.x, outcome.y)), None)
         if excluded is not None:
@@ -58,7 +64,7 @@ def _usable(name: str, step: str, mission: MissionState, world: Snapshot, rules:
         return "absent: nothing was published"
     reading, position = stamped.reading, stamped.reading.position
     if reading.status != "ok" or position is None:
-        return f"{reading.status}: {stamped.source} reports no position"
+        return why_no_position(name, stamped)
     if not all(map(math.isfinite, (position.x, position.y, position.z))):
         return f"not finite: {stamped.source} published ({position.x:g}, {position.y:g})"
     area = rules.crew.area

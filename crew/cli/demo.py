@@ -39,6 +39,8 @@ class DemoResult(msgspec.Struct, frozen=True, kw_only=True):
     contract: str | None
     steps: tuple[DemoStep, ...]
     goal_error_m: float | None
+    poses: Mapping[str, tuple[float, float, float, float]]
+    """Where every robot truly ended: x, y, z, yaw, world ENU, metres and radians."""
     run: str
     wall_s: float
     sim_s: float
@@ -84,16 +86,17 @@ async def _last_truth(truths: KeepLatest[Letter[SimTruth]]) -> SimTruth | None:
 
 
 def _result(last: MissionEvent, truth: SimTruth | None, crew: LiveCrew, wall_s: float) -> DemoResult:
-    asked = last.question if last.what == "question" else None
+    asked = last.question
     steps = last.steps or ()
     return DemoResult(
         mission=last.mission,
         outcome=last.outcome or "rejected",
-        code=last.code or ("unread_words" if asked else None),
+        code=last.code or ("unread_words" if last.what == "question" else None),
         question=asked,
         contract=last.contract,
         steps=tuple(DemoStep(robot=s.robot, skill=s.skill, args=s.args, outcome=s.outcome, code=s.code) for s in steps),
         goal_error_m=None if truth is None else goal_error_m(steps, truth),
+        poses={} if truth is None else truth.poses,
         run=str(crew.run_folder),
         wall_s=round(wall_s, 2),
         sim_s=round(last.at_s, 2),

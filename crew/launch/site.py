@@ -25,6 +25,7 @@ def resolve(options: LaunchOptions) -> Rules:
         map=options.map or crew.sim.map,
         seed=crew.sim.seed if options.seed is None else options.seed,
         faults=(*crew.sim.faults, *options.faults),
+        autopilots=crew.sim.autopilots,
     )
     return replace(rules, crew=_surveyed(crew, sim))
 

@@ -119,6 +119,7 @@ def _simulation(rules: Rules, options: LaunchOptions, running: Running, ports: M
         scene=sim.scene,
         seed=sim.seed,
         faults=sim.faults,
+        autopilots=dict(sim.autopilots),
         links={robot.sim: f"udp:127.0.0.1:{ports[robot.name]}" for robot in rules.crew.robots},
     )
     vehicles = {robot.name: robot.sim for robot in rules.crew.robots}

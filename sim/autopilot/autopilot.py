@@ -29,7 +29,6 @@ FORCE = 21196  # param2 of a disarm that is done in flight as well
 class Autopilot(ABC):
     """One vehicle's autopilot. The world calls `poll` and `tick`; a flavour fills in the rest."""
 
-    system: ClassVar[int]
     capabilities: ClassVar[int]
 
     def __init__(
@@ -46,6 +45,8 @@ class Autopilot(ABC):
         self.link = link
         self.geo = geo
         self.home = home
+        self.home_alt_m = geo.origin.alt_m
+        self.system = link.system
         self.faults = faults
         self.parameters = parameters
         self.streams = Streams(rates_hz)
@@ -85,6 +86,11 @@ class Autopilot(ABC):
     @property
     @abstractmethod
     def armed(self) -> bool: ...
+
+    @property
+    @abstractmethod
+    def aim(self) -> tuple[float, float, float] | None:
+        """Where it is going or holding, world frame, height above home; None if nowhere."""
 
     @abstractmethod
     def heartbeat(self) -> Any: ...

@@ -52,6 +52,11 @@ class Command(NamedTuple):
         """False if an infinity is among the parameters; NaN means 'not given'."""
         return not any(math.isinf(value) for value in self[1:8])
 
+    @property
+    def is_pause(self) -> bool:
+        """A reposition to nowhere: stop here."""
+        return math.isnan(self.x) and math.isnan(self.y) and math.isnan(self.z)
+
     def height_m(self, home_alt_m: float, otherwise: float) -> float | None:
         """z as height above home; `otherwise` if it is NaN, None if the frame is not one of the global ones.
 

@@ -13,12 +13,12 @@ class Target(NamedTuple):
     z_m: float
 
 
-def resolve(command: Command, geo: GeoFrame, here: Target) -> Target | None:
+def resolve(command: Command, geo: GeoFrame, here: Target, home_alt_m: float) -> Target | None:
     """The target; what the command leaves out is taken from `here`. None for a wrong frame or no place on Earth."""
     lat_here_deg, lon_here_deg = geo.to_geo(here.x_m, here.y_m)
     lat_deg = lat_here_deg if math.isnan(command.x) else command.x
     lon_deg = lon_here_deg if math.isnan(command.y) else command.y
-    height_m = command.height_m(geo.origin.alt_m, here.z_m)
+    height_m = command.height_m(home_alt_m, here.z_m)
     if height_m is None or not on_earth(lat_deg, lon_deg):
         return None
     return Target(*geo.to_world(lat_deg, lon_deg), height_m)

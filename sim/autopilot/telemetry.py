@@ -23,6 +23,8 @@ SENSORS = (
 GPS = mavlink.MAV_SYS_STATUS_SENSOR_GPS
 PREARM = mavlink.MAV_SYS_STATUS_PREARM_CHECK
 CELL_UNUSED = 65535
+VELOCITY_IGNORED = 0b110111111000
+"""Type mask of a position target in which the position alone counts."""
 
 
 class Source(Protocol):
@@ -31,6 +33,7 @@ class Source(Protocol):
     time_ns: int
     geo: GeoFrame
     home: tuple[float, float]
+    home_alt_m: float
 
     @property
     def state(self) -> State: ...
@@ -40,6 +43,8 @@ class Source(Protocol):
     def gps_ok(self) -> bool: ...
     @property
     def landed_state(self) -> int: ...
+    @property
+    def aim(self) -> tuple[float, float, float] | None: ...
     def problems(self) -> list[str]: ...
     def heartbeat(self) -> Any: ...
 
@@ -62,7 +67,7 @@ def _extended_sys_state(a: Source) -> Any:
 
 def _home_position(a: Source) -> Any:
     lat, lon = _lat_lon(a, *a.home)
-    alt_mm = round(a.geo.origin.alt_m * 1000)
+    alt_mm = round(a.home_alt_m * 1000)
     none = (math.nan,) * 3
     return mavlink.MAVLink_home_position_message(
         lat, lon, alt_mm, 0.0, 0.0, 0.0, (1.0, 0.0, 0.0, 0.0), *none, a.time_ns // 1000
@@ -74,7 +79,10 @@ def _global_position_int(a: Source) -> Any | None:
         return None
     s = a.state
     lat, lon = _lat_lon(a, s.x, s.y)
-    alt_mm, relative_mm = round((a.geo.origin.alt_m + s.z) * 1000), round(s.z * 1000)
+    alt_mm, relative_mm = (
+        round((a.geo.origin.alt_m + s.z) * 1000),
+        round((a.geo.origin.alt_m + s.z - a.home_alt_m) * 1000),
+    )
     north, east, down = round(s.vy * 100), round(s.vx * 100), round(-s.vz * 100)
     return mavlink.MAVLink_global_position_int_message(
         _boot_ms(a), lat, lon, alt_mm, relative_mm, north, east, down, _heading_cdeg(s)
@@ -118,6 +126,18 @@ def _gps_raw_int(a: Source) -> Any:
     )
 
 
+def _position_target(a: Source) -> Any | None:
+    if a.aim is None:
+        return None
+    x_m, y_m, height_m = a.aim
+    lat, lon = _lat_lon(a, x_m, y_m)
+    frame, mask = mavlink.MAV_FRAME_GLOBAL_INT, VELOCITY_IGNORED
+    altitude_m = a.home_alt_m + height_m
+    return mavlink.MAVLink_position_target_global_int_message(
+        _boot_ms(a), frame, mask, lat, lon, altitude_m, *(0.0,) * 8
+    )
+
+
 ENCODERS: dict[int, Callable[[Source], Any | None]] = {
     mavlink.MAVLINK_MSG_ID_HEARTBEAT: _heartbeat,
     mavlink.MAVLINK_MSG_ID_SYS_STATUS: _sys_status,
@@ -128,6 +148,7 @@ ENCODERS: dict[int, Callable[[Source], Any | None]] = {
     mavlink.MAVLINK_MSG_ID_ATTITUDE: _attitude,
     mavlink.MAVLINK_MSG_ID_BATTERY_STATUS: _battery_status,
     mavlink.MAVLINK_MSG_ID_GPS_RAW_INT: _gps_raw_int,
+    mavlink.MAVLINK_MSG_ID_POSITION_TARGET_GLOBAL_INT: _position_target,
 }
 
 FULL_RATES_HZ: dict[int, float] = {
@@ -140,6 +161,7 @@ FULL_RATES_HZ: dict[int, float] = {
     mavlink.MAVLINK_MSG_ID_ATTITUDE: 20.0,
     mavlink.MAVLINK_MSG_ID_BATTERY_STATUS: 1.0,
     mavlink.MAVLINK_MSG_ID_GPS_RAW_INT: 1.0,
+    mavlink.MAVLINK_MSG_ID_POSITION_TARGET_GLOBAL_INT: 2.0,
 }
 HEARTBEAT_ONLY_HZ = {message: 1.0 if message == mavlink.MAVLINK_MSG_ID_HEARTBEAT else 0.0 for message in ENCODERS}
 

@@ -68,6 +68,19 @@ class Quadcopter:
         if yaw_rad is not None:
             self._yaw_rad = yaw_rad
 
+    def turn_to(self, yaw_rad: float) -> None:
+        """Turn on the spot, or on the way."""
+        self._yaw_rad = yaw_rad
+
+    def limit_speed(self, speed_max: float) -> None:
+        """Another speed for what is left of the way."""
+        self._loop.speed_max = speed_max
+
+    @property
+    def target(self) -> tuple[float, float, float]:
+        """Where it flies or hovers."""
+        return self._loop.target
+
     def brake(self, speed_max: float) -> None:
         """Stop as soon as smooth braking allows and stay there."""
         self.fly_to(*self._loop.stop_point(self.state), speed_max=speed_max)

@@ -41,6 +41,11 @@ class Rover:
     def arrived(self) -> bool:
         return self._loop.arrived
 
+    @property
+    def target(self) -> tuple[float, float] | None:
+        """Where it drives; None if nowhere."""
+        return self._loop.target
+
     def drive_to(self, x_m: float, y_m: float, speed_max: float) -> None:
         """Turn towards a point, drive straight to it and stop."""
         self._loop.go(x_m, y_m, min(speed_max, SPEED_MAX))

@@ -5,13 +5,11 @@ from typing import ClassVar
 from pymavlink.dialects.v20 import common as mavlink
 
 from crew.adapters.mavlink.command import Command, Position
+from crew.adapters.mavlink.flavours import ardupilot
 from crew.adapters.mavlink.flavours.flavour import Failsafe, Modes
 
-CUSTOM = float(mavlink.MAV_MODE_FLAG_CUSTOM_MODE_ENABLED)
 MODES = {0: "MANUAL", 1: "ACRO", 3: "STEERING", 4: "HOLD", 5: "LOITER", 10: "AUTO", 11: "RTL", 15: "GUIDED"}
-HOLD = 4.0
-GUIDED = 15.0
-CHANGE_MODE = float(mavlink.MAV_DO_REPOSITION_FLAGS_CHANGE_MODE)
+HOLD, GUIDED = 4, 15
 
 
 class ArduPilotRover:
@@ -33,26 +31,20 @@ class ArduPilotRover:
         Failsafe("FS_GCS_TIMEOUT", lambda v: 0 < v <= 60, "above 0 and at most 60 s of silence"),
         Failsafe("FS_ACTION", lambda v: v > 0, "not 0 (nothing): what it does then"),
     )
-    streams: ClassVar[dict[int, float]] = {
-        mavlink.MAVLINK_MSG_ID_SYS_STATUS: 2.0,
-        mavlink.MAVLINK_MSG_ID_HOME_POSITION: 1.0,
-        mavlink.MAVLINK_MSG_ID_GLOBAL_POSITION_INT: 20.0,
-        mavlink.MAVLINK_MSG_ID_ATTITUDE: 20.0,
-        mavlink.MAVLINK_MSG_ID_EXTENDED_SYS_STATE: 5.0,
-        mavlink.MAVLINK_MSG_ID_BATTERY_STATUS: 1.0,
-    }
-    stop = Command(id=mavlink.MAV_CMD_DO_SET_MODE, params=(CUSTOM, HOLD))
+    fences = (
+        Failsafe("FENCE_ENABLE", lambda v: v > 0, "not 0 (off)"),
+        Failsafe("FENCE_RADIUS", lambda v: 0 < v <= 1000, "above 0 and at most 1000 m from home"),
+    )
+    streams: ClassVar[dict[int, float]] = ardupilot.STREAMS
+    stops = (ardupilot.set_mode(HOLD),)
     stop_mode = "HOLD"
     travel_modes: Modes = frozenset({"GUIDED"})
-    guided = Command(id=mavlink.MAV_CMD_DO_SET_MODE, params=(CUSTOM, GUIDED))
-    arm = Command(id=mavlink.MAV_CMD_COMPONENT_ARM_DISARM, params=(1.0,))
 
     def mode(self, custom_mode: int) -> str:
         return MODES.get(custom_mode, f"mode {custom_mode}")
 
     def prepare(self) -> tuple[Command, ...]:
-        return self.guided, self.arm
+        return ardupilot.set_mode(GUIDED), ardupilot.ARM
 
-    def go_to(self, place: Position, speed_mps: float, heading_rad: float | None) -> Command:
-        params = (speed_mps, CHANGE_MODE, 0.0, 0.0)
-        return Command(id=mavlink.MAV_CMD_DO_REPOSITION, params=params, position=place)
+    def go_to(self, place: Position, speed_mps: float, heading_rad: float | None) -> tuple[Command, ...]:
+        return (ardupilot.reposition(place, speed_mps),)

@@ -59,13 +59,18 @@ class Flavour(Protocol):
         ...
 
     @property
-    def stop(self) -> Command:
-        """Brake and hold, in any mode."""
+    def fences(self) -> tuple[Failsafe, ...]:
+        """The vehicle's own geofence: part of the checklist, for the adapter has one of its own."""
+        ...
+
+    @property
+    def stops(self) -> tuple[Command, ...]:
+        """Brake and hold, in any mode; all of them, in this order."""
         ...
 
     @property
     def stop_mode(self) -> str:
-        """The mode that `stop` leads to."""
+        """The mode that `stops` lead to."""
         ...
 
     @property
@@ -81,7 +86,7 @@ class Flavour(Protocol):
         """What comes before the first `go_to`: a mode, arming."""
         ...
 
-    def go_to(self, place: Position, speed_mps: float, heading_rad: float | None) -> Command:
+    def go_to(self, place: Position, speed_mps: float, heading_rad: float | None) -> tuple[Command, ...]:
         """Travel to a place. Heading is clockwise from north; None leaves it to the vehicle."""
         ...
 

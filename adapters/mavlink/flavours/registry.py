@@ -4,12 +4,14 @@ from collections.abc import Sequence
 
 from pymavlink.dialects.v20 import common as mavlink
 
+from crew.adapters.mavlink.flavours.ardupilot_copter import ArduPilotCopter
 from crew.adapters.mavlink.flavours.ardupilot_rover import ArduPilotRover
 from crew.adapters.mavlink.flavours.flavour import Flavour
 from crew.adapters.mavlink.flavours.px4_quadcopter import Px4Quadcopter
+from crew.adapters.mavlink.flavours.px4_rover import Px4Rover
 from crew.errors import AdapterError
 
-FLAVOURS: tuple[Flavour, ...] = (Px4Quadcopter(), ArduPilotRover())
+FLAVOURS: tuple[Flavour, ...] = (Px4Quadcopter(), ArduPilotCopter(), Px4Rover(), ArduPilotRover())
 
 
 def find_flavour(kind: str, autopilot: int, vehicle_type: int, known: Sequence[Flavour] = FLAVOURS) -> Flavour | None:

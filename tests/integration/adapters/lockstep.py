@@ -2,7 +2,6 @@
 
 import asyncio
 import contextlib
-import math
 import socket
 from collections.abc import AsyncIterator, Awaitable, Callable
 from typing import Any, TypeVar
@@ -29,25 +28,8 @@ def free_port() -> int:
 
 
 def discs(world: World) -> tuple[tuple[float, float, float], ...]:
-    """The map's obstacles as discs; a long box is a row of them."""
-    found = []
-    for obstacle in world.map.obstacles:
-        size = getattr(obstacle, "size_m", None)
-        if size is None:
-            found.append((obstacle.x_m, obstacle.y_m, obstacle.reach_m))
-        else:
-            found.extend(_row(obstacle, *size[:2]))
-    return tuple(found)
-
-
-def _row(box: Any, length_m: float, width_m: float) -> list[tuple[float, float, float]]:
-    along = box.yaw_rad if length_m >= width_m else box.yaw_rad + math.pi / 2
-    long_m, short_m = max(length_m, width_m), min(length_m, width_m)
-    count = max(1, math.ceil(long_m / short_m))
-    piece_m = long_m / count
-    radius_m = math.hypot(piece_m, short_m) / 2
-    offsets = [(i + 0.5) * piece_m - long_m / 2 for i in range(count)]
-    return [(box.x_m + o * math.cos(along), box.y_m + o * math.sin(along), radius_m) for o in offsets]
+    """The map's obstacles as a surveyor of the site writes them down."""
+    return tuple(disc for obstacle in world.map.obstacles for disc in obstacle.discs)
 
 
 class Lockstep:

@@ -87,7 +87,7 @@ def _rotate(x: float, y: float, z: float, attitude: object) -> tuple[float, floa
     return x * math.cos(yaw) - y * math.sin(yaw), x * math.sin(yaw) + y * math.cos(yaw), z
 
 
-def test_loiter_brakes() -> None:
+def test_loiter_again_changes_nothing_and_a_reposition_to_nowhere_brakes() -> None:
     with Ground() as ground:
         ground.take_off(4.0)
         ground.go(8.0, -4.0, 4.0)
@@ -95,6 +95,9 @@ def test_loiter_brakes() -> None:
         moving = ground.world.truth().robots["iris"]
         assert moving.speed_mps > 2.0
         assert ground.command(IRIS, 176, 1, 4, 3) == ACCEPTED
+        ground.run(0.5)
+        assert ground.world.truth().robots["iris"].speed_mps > 2.0
+        assert ground.command(IRIS, 192, -1, 1, 0, NAN, NAN, NAN, NAN) == ACCEPTED
         ground.run(5.0)
         still = ground.world.truth().robots["iris"]
         assert still.speed_mps < 0.4

@@ -19,7 +19,7 @@ def _start(ground: Ground) -> None:
 def test_streams_only_heartbeats_until_asked() -> None:
     with Ground() as ground:
         ground.run(3.0)
-        assert {message.get_type() for message in ground.messages[TB3]} == {"HEARTBEAT"}
+        assert {message.get_type() for message in ground.messages[TB3]} == {"HEARTBEAT", "OBSTACLE_DISTANCE"}
         heartbeat = ground.last(TB3, "HEARTBEAT")
         assert (heartbeat.type, heartbeat.autopilot, heartbeat.custom_mode) == (10, 3, HOLD)
         assert ground.command(TB3, 511, GLOBAL_POSITION_INT, 100_000) == ACCEPTED

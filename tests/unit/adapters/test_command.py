@@ -64,6 +64,30 @@ async def test_silence_is_retried_with_a_rising_confirmation() -> None:
     assert [m.confirmation for m in rig.wire.messages] == [0, 1, 2]
 
 
+async def test_the_late_answer_to_an_earlier_try_does_not_answer_the_next_command() -> None:
+    rig = Rig()
+    await rig.send(ARM, None, ack(ARM.id, ACCEPTED))
+    sending = asyncio.ensure_future(rig.commander.send(ARM, Permit()))
+    for _ in range(3):
+        await asyncio.sleep(0)
+    rig.commander.acknowledge(ack(ARM.id, ACCEPTED))
+    for _ in range(3):
+        await asyncio.sleep(0)
+    assert not sending.done()
+    rig.commander.acknowledge(ack(ARM.id, REJECTED))
+    with pytest.raises(AdapterError, match="refused"):
+        await finish(rig.clock, sending)
+
+
+async def test_an_answer_to_another_station_is_no_answer() -> None:
+    rig = Rig()
+    sending = asyncio.ensure_future(rig.commander.send(ARM, Permit()))
+    await asyncio.sleep(0)
+    rig.commander.acknowledge(mavlink.MAVLink_command_ack_message(ARM.id, REJECTED, 0, 0, 245, 190))
+    rig.commander.acknowledge(ack(ARM.id, ACCEPTED))
+    await finish(rig.clock, sending)
+
+
 async def test_lasting_silence_is_an_error_that_names_the_command() -> None:
     rig = Rig()
     with pytest.raises(AdapterError, match="MAV_CMD_COMPONENT_ARM_DISARM: no answer") as failed:

@@ -3,8 +3,10 @@
 import math
 from random import Random
 
+import pytest
+
 from crew.adapters.mavlink.camera import Look
-from crew.adapters.mavlink.fix import combine
+from crew.adapters.mavlink.fix import combine, locate
 
 
 def around(x: float, y: float, count: int, *, spread: float = 0.15, start_s: float = 0.0) -> list[Look]:
@@ -23,7 +25,6 @@ def test_looks_are_averaged() -> None:
     assert fix is not None
     assert math.hypot(fix.x_m - 5.0, fix.y_m - 5.0) < 0.06
     assert fix.looks == 60
-    assert not fix.ambiguous
 
 
 def test_outliers_are_left_out() -> None:
@@ -32,13 +33,16 @@ def test_outliers_are_left_out() -> None:
     assert fix is not None
     assert math.hypot(fix.x_m - 5.0, fix.y_m - 5.0) < 0.15
     assert fix.looks == 20
-    assert not fix.ambiguous
 
 
-def test_a_second_person_makes_the_fix_ambiguous() -> None:
-    fix = combine(around(5.0, 5.0, 20) + around(-3.0, 4.0, 8, start_s=30.0))
-    assert fix is not None
-    assert fix.ambiguous
+def test_the_covariance_is_what_the_looks_scatter_where_that_is_more_than_expected() -> None:
+    random = Random(7)
+    looks = [Look(random.gauss(0, 0.6), random.gauss(0, 0.05), 5.0, i * 10.0) for i in range(40)]
+    fix = locate(looks)
+    xx, xy, yy = fix.covariance_m2
+    assert math.sqrt(xx) == pytest.approx(0.6 / math.sqrt(40), rel=0.3)
+    assert math.sqrt(yy) == pytest.approx(0.2 / math.sqrt(40), rel=0.3), "no less than the error model expects"
+    assert xx * yy > xy * xy
 
 
 def test_one_look_is_a_fix_with_the_sigma_of_one_look() -> None:

@@ -42,7 +42,7 @@ def test_every_point_of_the_zone_is_seen(
 def test_way_points_stay_within_the_zone(width: float, depth: float, along: float, across: float, lap: float) -> None:
     zone = Zone(-3.0, -3.0 + width, 2.0, 2.0 + depth)
     for x, y in plan_sweep(zone, along, across, lap, (50.0, -50.0)).points:
-        assert zone.contains(x, y)
+        assert zone.beyond_m(x, y) == 0.0
 
 
 def test_it_begins_at_the_corner_nearest_to_the_start() -> None:

@@ -17,6 +17,7 @@ from crew.adapters.mavlink.parameter import decode_value
 from crew.adapters.mavlink.preflight import bad_sensors
 from crew.adapters.mavlink.search import Search
 from crew.adapters.mavlink.statustext import StatusLog
+from crew.adapters.mavlink.sweep import Zone
 from crew.adapters.mavlink.telemetry import Telemetry
 from crew.clock import SimClock
 from crew.errors import AdapterError
@@ -82,14 +83,15 @@ def test_a_damaged_detection_makes_a_reading_without_a_position_even_beside_good
     telemetry = told(SimClock(3_000_000_000))
     telemetry.take(position(1000))
     telemetry.take(attitude(1000))
-    search = Search(telemetry, 0.3)
+    search = Search(telemetry, 0.3, (0.1, 0.8), Zone(-1000.0, 1000.0, -1000.0, 1000.0))
     assert search.reading(5).status == "absent"
     assert search.reading(5).stamp_ns == 5
-    telemetry.take(target(0.1, 1_000_000))
+    for _ in range(3):
+        telemetry.take(target(0.1, 1_000_000))
     good = search.reading(5)
     assert good.status == "ok"
     assert good.position is not None
-    assert (good.looks, good.stamp_ns) == (1, 3_000_000_000)
+    assert (good.looks, good.stamp_ns) == (3, 3_000_000_000)
     telemetry.take(target(math.nan, 1_000_000))
     telemetry.take(target(0.1, 1_000_000))
     bad = search.reading(5)
@@ -144,7 +146,9 @@ def test_takeoff_is_commanded_above_sea_level_and_the_rest_is_unused() -> None:
 
 def test_a_heartbeat_of_another_kind_of_vehicle_is_refused_with_the_supported_ones() -> None:
     assert isinstance(choose_flavour("rover", 3, 10), ArduPilotRover)
-    with pytest.raises(AdapterError, match=r"MAV_TYPE_FIXED_WING.*PX4 quadcopter, ArduPilot rover") as refused:
+    with pytest.raises(
+        AdapterError, match=r"MAV_TYPE_FIXED_WING.*PX4 quadcopter, ArduPilot copter, PX4 rover, Ardu"
+    ) as refused:
         choose_flavour("quadcopter", 12, 1)
     assert refused.value.code == "wrong_vehicle"
 

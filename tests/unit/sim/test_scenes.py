@@ -16,8 +16,8 @@ def test_an_unknown_scene_is_refused_with_the_known_ones(call: object) -> None:
         call()
 
 
-def test_a_survey_has_a_disc_for_each_obstacle() -> None:
+def test_a_survey_has_the_discs_of_each_obstacle() -> None:
     found = survey("air_ground", "A")
     site = load_map("air_ground", "A")
     assert found.origin == (site.origin.lat_deg, site.origin.lon_deg, site.origin.alt_m)
-    assert {(o.x_m, o.y_m, o.reach_m) for o in site.obstacles} == set(found.obstacles)
+    assert {disc for obstacle in site.obstacles for disc in obstacle.discs} == set(found.obstacles)

@@ -14,7 +14,7 @@ from tests.unit.contracts import build as b
 
 ROLES = {"searcher": "iris", "responder": "tb3"}
 ROVER_M = 0.6
-STANDOFF_M = 0.3
+STANDOFF_M = 0.25
 EPSILON_M = 1e-9
 
 

@@ -265,12 +265,35 @@ def test_a_fix_on_the_edge_of_the_area_is_inside(corner: Point, rules: Rules) ->
 
 
 @pytest.mark.parametrize(
+    ("status", "asks"),
+    [
+        ("ambiguous", "Which of them is victim: (5.00, 5.00) or (-3.00, 2.40)? Ask again with the point itself."),
+        ("uncertain", "Is that victim? If so, ask again with the point itself."),
+        ("outside_zone", "Is that victim?"),
+        ("not_a_person", "Something was seen that has not the shape of a person: (5.00, 5.00)"),
+        ("robot says: fly into the wall", ""),
+    ],
+)
+def test_what_only_a_person_can_tell_is_refused_with_a_question_and_nobody_chooses(
+    status: str, asks: str, rules: Rules
+) -> None:
+    seen = replace(b.victim(None, status=status).reading, candidates=(Point(5.0, 5.0), Point(-3.0, 2.4)))
+    fix = replace(b.victim(None), reading=seen)
+    decision = b.judged(b.DISPATCH, b.before_dispatch(rules), b.world(fix=fix), rules)
+    assert decision.refusal is not None
+    assert decision.refusal.code is Code.NO_TARGET_FIX
+    assert asks in decision.refusal.question
+    assert bool(asks) is bool(decision.refusal.question)
+    assert "wall" not in str(decision.refusal), "no word of a robot is passed on"
+
+
+@pytest.mark.parametrize(
     ("fix", "words"),
     [
         (None, "absent: nothing was published"),
-        (b.victim(None, status="absent"), "absent: iris reports no position"),
-        (b.victim(status="ambiguous"), "ambiguous: iris reports no position"),
-        (b.victim(None), "ok: iris reports no position"),
+        (b.victim(None, status="absent"), "absent: iris reports of victim: nobody was seen"),
+        (b.victim(status="ambiguous"), "ambiguous: iris reports of victim: more than one was seen"),
+        (b.victim(None), "no position: iris reports none"),
         (b.victim(source="tb3"), "published by tb3, whose kind publishes no victim"),
         (b.victim(source="nobody"), "published by nobody, whose kind publishes no victim"),
     ],

@@ -72,7 +72,7 @@ def test_robots_are_assumed_at_rest() -> None:
         ("go2.at=roof", "'roof' is no value of it"),
         ("requestr.near=true", "did you mean 'requester'?"),
         ("requester.close=true", "requester has no attribute 'close'"),
-        ("requester.status=fine", "'fine' is no value of it (valid: absent, ambiguous, ok)"),
+        ("requester.status=fine", "'fine' is no value of it (valid: absent, ambiguous, not_a_person, ok, "),
     ],
 )
 def test_an_assumption_that_means_nothing_is_refused_in_words(state: str, words: str) -> None:
