@@ -185,9 +185,20 @@ def verify(
     run: Annotated[Path, typer.Argument(help="A run's folder, or `last`.")],
     runs: Runs = Path("runs"),
     key: Annotated[Path | None, typer.Option(help="The orchestrator's public key, if not this machine's.")] = None,
+    against: Annotated[
+        list[Path] | None,
+        typer.Option("--against", help="A changed contract or crew file; may be given several times."),
+    ] = None,
     as_json: AsJson = False,
 ) -> None:
-    """Check a run's chain and signatures, and decide every decision again."""
+    """Check a run's chain and signatures, and decide every decision again.
+
+    With --against: by other contracts or another crew; exit code 6 if anything would have been decided otherwise.
+    """
+    if against:
+        from crew.cli.against import run_against
+
+        _end(run_against(run, against, runs, key, as_json))
     from crew.cli.runs import run_verify
 
     _end(run_verify(run, runs, key, as_json))

@@ -64,6 +64,14 @@ class Happening(msgspec.Struct, frozen=True, kw_only=True):
     after: MissionState
 
 
+class Judgement(msgspec.Struct, frozen=True, kw_only=True):
+    """What telemetry was found to show, with the state that it was judged in."""
+
+    seq: int
+    mission: MissionState
+    record: JudgementRecord
+
+
 class MissionHistory:
     """One mission from its request to its end, or to where the journal ends."""
 
@@ -73,7 +81,7 @@ class MissionHistory:
         self.ended_ns: int | None = None
         self.happenings: list[Happening] = []
         self.verdicts: list[Verdict] = []
-        self.judgements: list[tuple[int, JudgementRecord]] = []
+        self.judgements: list[Judgement] = []
         self.intents: list[IntentRecord] = []
 
     @property
@@ -145,7 +153,7 @@ class History:
             case JudgementRecord():
                 self.worlds.append((record.now_ns, record.world))
                 if (mission := self.missions.get(record.mission)) is not None:
-                    mission.judgements.append((row.at_ns, record))
+                    mission.judgements.append(Judgement(seq=row.seq, mission=mission.state, record=record))
 
     def _judged(self, row: Row, name: str, record: ValidationRecord | DecisionRecord) -> None:
         mission = self.missions.get(name)

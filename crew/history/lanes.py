@@ -211,7 +211,7 @@ def _refusals(mission: MissionHistory) -> Iterator[Mark]:
 
 def _values(mission: MissionHistory) -> Iterator[Mark]:
     """When each run-time value was first published as it was later used; what came before the mission is left out."""
-    worlds = [v.world for v in mission.verdicts] + [record.world for _, record in mission.judgements]
+    worlds = [v.world for v in mission.verdicts] + [judgement.record.world for judgement in mission.judgements]
     seen: set[tuple[str, str]] = set()
     for stamped in (value for world in worlds for value in world.values.values()):
         reading = stamped.reading

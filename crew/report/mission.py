@@ -273,7 +273,7 @@ def _refused(explained: Explanation, verdict: Verdict) -> Html:
 
 def _judgements(mission: MissionHistory) -> Html | None:
     """What telemetry was found to show at the end."""
-    last = next((j for _, j in reversed(mission.judgements) if j.what == "complete"), None)
+    last = next((j.record for j in reversed(mission.judgements) if j.record.what == "complete"), None)
     if last is None:
         return None
     words = last.missing or "the contract's completion conditions were observed"
