@@ -52,7 +52,7 @@ def test_a_halted_mission_is_explained_by_the_refusal_that_ended_it(explain: Exp
     for words in (
         "refused no_target_fix: tb3.navigate_to(target=victim)",
         "run-time values, at args.target",
-        "absent: iris reports no position",
+        "absent: iris reports",
         "search_and_dispatch:",
         "do: {navigate_to: {target: $person}}",
         '"victim" names target',
