@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 
+from crew.contracts.language.implied import implied_verbs
 from crew.contracts.language.lexicon import Lexicon
 from crew.contracts.language.mention import Ambiguity, Direction, Mention, MentionKind, Reading, Unread
 from crew.contracts.language.phrase import directions, hosts, loose_ends, noun_phrases
@@ -25,6 +26,7 @@ def read_request(text: str, lexicon: Lexicon) -> Reading:
         why = f"{len(tokens)} words and marks; at most {MAX_TOKENS} are read"
         return _too_long(text, tokens[MAX_TOKENS].start, why)
     pieces = noun_phrases(Scanner(tokens, lexicon).scan())
+    implied_verbs(pieces, lexicon)
     loose_ends(pieces, lexicon)
     _everything(pieces, lexicon)
     _first(pieces)

@@ -53,7 +53,7 @@ def _groups(pieces: list[Piece], at: int, lexicon: Lexicon) -> Iterator[Group]:
     if pronoun.norm in _PEOPLE:
         yield (MentionKind.VALUE,)
         return
-    if pronoun.norm == "there" or (previous is not None and previous.role in PLACE_ROLES):
+    if pronoun.norm in ("there", "over there") or (previous is not None and previous.role in PLACE_ROLES):
         yield _PLACES
         yield (MentionKind.ZONE,)
         return
@@ -95,9 +95,11 @@ def place_pronouns(pieces: list[Piece]) -> None:
 def participles(pieces: list[Piece]) -> None:
     """A past form asks for something only in a passive (`must be searched`) or after `once`."""
     for at, piece in enumerate(pieces):
+        auxiliary = pieces[at - 1] if at and pieces[at - 1].role is Role.BE else None
+        if piece.is_action and piece.form is Form.ING and auxiliary is not None and auxiliary.norm == "be":
+            auxiliary.become(Role.FILLER)  # "must be searching"
         if piece.is_action and piece.form is Form.PAST:
-            auxiliary = pieces[at - 1] if at and pieces[at - 1].role is Role.BE else None
-            passive = auxiliary is not None and auxiliary.norm == "be"
+            passive = auxiliary is not None and auxiliary.norm in ("be", "were")
             if passive or _in_time_clause(pieces, at) or _wanted_done(pieces, at):
                 if auxiliary is not None:
                     auxiliary.become(Role.FILLER)

@@ -7,7 +7,16 @@ from crew.contracts.language.mention import ROBOT_KINDS, MentionKind
 from crew.contracts.language.numbers import Figures, read_figures
 from crew.contracts.language.piece import Piece, of_entry
 from crew.contracts.language.tokens import Shape, Token
-from crew.contracts.language.words import ADVERBS, PARTICLES, PLACE_NOUNS, SELF_WORDS, Role
+from crew.contracts.language.words import (
+    ADVERBS,
+    IN_NEED,
+    LEFT_ALONE,
+    NOTHING_SAID,
+    PARTICLES,
+    PLACE_NOUNS,
+    SELF_WORDS,
+    Role,
+)
 
 _ARTICLES = frozenset(("the", "a", "an", "all", "both", "your", "our", "my", "any"))
 _LIGHT_LINKS = ("and", "to", "by", "with")
@@ -29,6 +38,8 @@ class Scanner:
         self.pieces: list[Piece] = []
         self.taken: set[int] = set()
         """Particles that an earlier verb has taken."""
+        self.ends: set[int] = set()
+        """Where an exclusion is over, whatever follows."""
 
     def scan(self) -> list[Piece]:
         figures = {f.first: f for f in read_figures(self.tokens, self.lexicon.area, self._action_takes_zone)}
@@ -40,6 +51,8 @@ class Scanner:
         return self.pieces
 
     def _piece(self, at: int) -> Piece:
+        if at in self.ends:
+            return Piece(at, at + 1, Role.BREAK)
         if at in self.taken:
             return Piece(at, at + 1, Role.FILLER)
         token = self.tokens[at]
@@ -50,7 +63,7 @@ class Scanner:
         return self._idiom(at) or self._phrase(at) or self._loose(at)
 
     def _idiom(self, at: int) -> Piece | None:
-        return self._light(at) or self._cause(at) or self._separable(at)
+        return self._light(at) or self._cause(at) or self._separable(at) or self._leave(at) or self._bare_go(at)
 
     def _light(self, at: int) -> Piece | None:
         """`start searching`, `do a search`, `go and find`: the verb that follows is the one that is meant."""
@@ -80,6 +93,9 @@ class Scanner:
         verb = self._past(self._past(end, ("out", "up", "off", "over")), ("to",))
         marked = verb > end and self.tokens[verb - 1].norm == "to"
         action = self._action(self._past(verb, ("go", "and", "then")) if marked else verb)
+        if action is None and not sending and self._light(verb) is not None:
+            self.taken.update(range(end, verb))
+            return Piece(at, start, Role.FILLER)  # "have the drone take a look"
         if action is None or (sending and not marked) or self._name_is_place(verb) or action.words[0] in PLACE_NOUNS:
             return None
         self.taken.update(range(end, verb))
@@ -100,6 +116,34 @@ class Scanner:
                     return of_entry(entry, at, at + 1, False)
         return None
 
+    def _leave(self, at: int) -> Piece | None:
+        """`leave the rover where it is`, `keep the drone still`: what is named is left out, like after `except`."""
+        if self.tokens[at].norm not in ("leave", "keep") or self._past_name(at + 1) == at + 1:
+            return None
+        end = self._past_name(at + 1)
+        tails = LEFT_ALONE if end < len(self.tokens) else ()
+        tail = next((t for t in tails if stands(self.tokens, end, t)), None)
+        closed = tail is not None and self._clause_ends(end + len(tail))
+        if tail is None or not closed:
+            return None
+        self.taken.update(range(end, end + len(tail)))
+        self.ends.add(end + len(tail) - 1)
+        return Piece(at, at + 1, Role.EXCEPT, norm=self.tokens[at].norm)
+
+    def _bare_go(self, at: int) -> Piece | None:
+        """`go!` by itself: off with you, and no word of where."""
+        alone = self.tokens[at].norm == "go" and self._clause_begins(at) and self._clause_ends(at + 1)
+        return Piece(at, at + 1, Role.FILLER) if alone else None
+
+    def _clause_begins(self, at: int) -> bool:
+        return all(p.role in (Role.FILLER, Role.PUNCTUATION) for p in self.pieces[-1:])
+
+    def _clause_ends(self, at: int) -> bool:
+        if at >= len(self.tokens) or self.tokens[at].shape is Shape.MARK:
+            return True
+        entry = match(self.lexicon.functions, self.tokens, at)
+        return entry is not None and entry.role in (Role.AND, Role.THEN, Role.BREAK, Role.FILLER)
+
     def _past_name(self, at: int) -> int:
         """Past one name and its articles, or `at` if no name stands here."""
         start = self._past(at, tuple(_ARTICLES))
@@ -108,6 +152,8 @@ class Scanner:
 
     def _phrase(self, at: int) -> Piece | None:
         entry = self._longest(at)
+        if (opener := self._opener(at)) is not None and (entry is None or len(opener.words) >= len(entry.words)):
+            return Piece(at, at + len(opener.words), Role.FILLER)
         if entry is None:
             return None
         end = at + len(entry.words)
@@ -118,6 +164,15 @@ class Scanner:
         if entry.role is Role.WHOEVER:
             return self._whoever(at, end)
         return of_entry(entry, at, end, self.tokens[end - 1].possessive)
+
+    def _opener(self, at: int) -> Entry | None:
+        """`um`, `right`, `yeah`: nothing is said by them where a clause begins and no name or verb stands in them."""
+        entry = self._special(Role.OPENER, at)
+        if entry is None or not self._clause_begins(at) or self._action(at) is not None:
+            return None
+        after = at + len(entry.words)
+        modifies = self._name(after) is not None and self._action(after) is None and len(entry.words) == 1
+        return None if modifies and entry.name in _MODIFIERS else entry
 
     def _longest(self, at: int) -> Entry | None:
         entry = self.lexicon.longest(self.tokens, at)
@@ -149,6 +204,9 @@ class Scanner:
                 break
         if self._negated():
             return Piece(at, end, Role.FILLER)  # "don't send anyone"
+        if end + 1 < len(self.tokens) and self.tokens[end].norm == "is" and self.tokens[end + 1].norm in IN_NEED:
+            known = set(self.lexicon.reports.values())
+            return _value(at, end + 2, known.pop()) if len(known) == 1 else Piece(at, end + 2, Role.UNREAD)
         last = next((p for p in reversed(self.pieces) if p.role not in (Role.FOR, Role.FILLER)), None)
         value = self._reported(last.means) if last is not None and last.is_action else None
         return Piece(at, end, Role.UNREAD) if value is None else _value(at, end, value)
@@ -174,12 +232,14 @@ class Scanner:
         name = self._name(self._past(at + 1, tuple(_ARTICLES)))
         if token.norm == "off" and name is not None and name.kind is MentionKind.LOCATION:
             return Piece(at, at + 1, Role.FROM, norm=token.norm)  # "take the cube off the table"
+        if token.norm in NOTHING_SAID and self._negated():
+            return Piece(at, at + 1, Role.FILLER)  # "do not drive anywhere"
         unread = is_numeral(self.tokens, at) or token.norm in _NEVER_NAMES or token.norm.endswith("ly")
         return Piece(at, at + 1, Role.UNREAD if unread else Role.WORD, norm=token.norm, possessive=token.possessive)
 
     def _special(self, role: Role, at: int) -> Entry | None:
         """A function word of a role that holds only before a fitting word."""
-        for entry in self.lexicon.special.get(self.tokens[at].norm, ()):
+        for entry in self.lexicon.special.get(self.tokens[at].norm, ()) if at < len(self.tokens) else ():
             if entry.role is role and stands(self.tokens, at, entry.words):
                 return entry
         return None
@@ -209,6 +269,8 @@ class Scanner:
         return False
 
 
+_MODIFIERS = frozenset(("right", "like", "fine", "good", "great", "cool", "perfect", "quick"))
+"""Openers that would belong to a name that follows at once."""
 _NEVER_NAMES = ADVERBS | frozenset(SELF_WORDS)
 _NAME_FOLLOWS = frozenset(
     (Role.DETERMINER, Role.QUANTIFIER, Role.TO, Role.AT, Role.OVER, Role.NEAR, Role.FROM, Role.OF)

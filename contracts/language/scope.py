@@ -46,6 +46,8 @@ def _negate(pieces: list[Piece], at: int, tokens: list[Token], doubts: list[Ambi
         return at + 1
     end = next((k for k in range(at + 1, len(pieces)) if pieces[k].role in _ENDS), len(pieces))
     inside = pieces[at + 1 : end]
+    if len(inside) > 1 and inside[0].role is Role.WORD and negation.role is Role.NOT and _names_next(inside):
+        inside[0].become(Role.FILLER)  # "do not touch the bottle": the bottle is left out of everything
     scope = [*_subject(pieces, at), *(p for p in inside if p.kind is not None)]
     if not scope:
         doubts.append(_doubt(f"nothing follows '{negation.norm}' that it could exclude", negation, tokens))
@@ -57,6 +59,11 @@ def _negate(pieces: list[Piece], at: int, tokens: list[Token], doubts: list[Ambi
     if negation.role is Role.AVOID:
         negation.become(Role.UNREAD)
     return end
+
+
+def _names_next(inside: list[Piece]) -> bool:
+    following = next((p for p in inside[1:] if p.role not in SOFT), None)
+    return following is not None and following.is_entity and following.kind is not MentionKind.UNKNOWN
 
 
 def _subject(pieces: list[Piece], at: int) -> list[Piece]:

@@ -7,6 +7,8 @@ class Role(StrEnum):
     """What a word or phrase does in a request, when it names nothing by itself."""
 
     FILLER = "filler"
+    OPENER = "opener"
+    """A filler at the beginning of a clause, or all of it; anywhere else it may change what is meant."""
     MODAL = "modal"
     BE = "be"
     CAUSE = "cause"
@@ -59,15 +61,42 @@ FUNCTION_WORDS: dict[Role, tuple[str, ...]] = {
         "it would be nice to", "it would be great to", "it would be nice if you could", "if you could",
         "it would be great if you could", "has to", "needs to", "have to", "need to", "the job is to", "take care to",
         "be so kind", "be so kind as", "be so kind and", "could someone", "could somebody", "can someone",
-        "can somebody", "would someone", "would somebody",
+        "can somebody", "would someone", "would somebody", "you can", "you may", "you guys", "please to",
+        "would it be possible to", "would it be possible for you to", "is it possible to", "may i ask you to",
+        "might i ask you to", "could i ask you to", "can i ask you to", "i would like to ask you to",
+        "if it is not too much trouble", "if it's not too much trouble", "if you don't mind", "if you do not mind",
+        "if you would", "if you would be so kind", "if you would be so kind as to", "be so good as to",
+        "be so kind as to", "would you be so kind as to", "would you be so good as to", "could you be so kind as to",
+        "i would be grateful if you could", "i would be most grateful if you could", "i'd be grateful if you could",
+        "i would be very grateful if you could", "i would be happy if you could", "i'd be happy if you could",
+        "i would appreciate it if you could", "i'd appreciate it if you could", "i would appreciate it if",
+        "i'd appreciate it if", "it would be great if", "it would be nice if", "it would help if you could",
+        "i wonder whether you could", "i wonder if you could", "i was wondering if you could",
+        "i was wondering whether you could", "do you think you could", "would you be able to", "are you able to",
+        "could you possibly", "see to it that", "please see to it that", "we need that",
+        "i should like", "i should like to", "do me a favor and", "do me a favour and", "thank you for", "thanks for",
+        "let me think", "there is", "there are", "there's", "what you are doing", "what you're doing",
+        "whatever you are doing", "whatever happens", "whatever you do", "you know", "as i said", "yes please",
+        "would you mind please", "could we", "can we", "can we please", "could we please", "may we", "will you please",
+        "your turn", "the plan is to", "the idea is to", "all i want is", "all i need is", "what i want is",
+        "what i need is", "you should", "you must", "you will", "you shall",
     ),
+    Role.OPENER: (
+        "um", "uh", "uhm", "er", "erm", "hmm", "hm", "mm", "ah", "oh", "eh", "yeah", "yes", "yep", "yup", "yea",
+        "right", "right then", "okay then", "ok then", "so then", "look", "listen", "look here", "come on", "excuse me",
+        "pardon me", "basically", "like", "well then", "fine", "good", "great", "perfect", "cool", "alright then",
+        "team", "folks", "guys", "everyone", "buddy", "mate", "friend", "friends", "my friend", "crew", "attention",
+        "anyway", "now then", "and now", "yo", "hurry", "hurry up", "quick question", "question",
+        "that's enough", "that is enough", "enough", "will you", "if you will",
+    ),
+
     Role.MODAL: ("should", "shall", "must", "can", "could", "would", "ought"),
-    Role.BE: ("be", "been", "is", "are", "has", "have", "has been", "have been", "get", "gets"),
+    Role.BE: ("be", "been", "were", "is", "are", "has", "have", "has been", "have been", "get", "gets"),
     Role.CAUSE: ("have", "get", "let", "ask", "tell", "order", "command", "instruct", "make", "use", "want", "need"),
     Role.DETERMINER: ("the", "a", "an", "this", "that", "these", "those", "my", "your", "our", "some", "any"),
     Role.QUANTIFIER: ("all", "both", "every", "each", "whole", "entire", "complete", "full"),
     Role.TO: ("to", "into", "onto", "toward", "towards", "over to", "back to", "up to", "to where"),
-    Role.AT: ("at", "in", "on", "inside", "within", "in the direction"),
+    Role.AT: ("at", "in", "on", "inside", "within", "in the direction", "somewhere in", "somewhere inside"),
     Role.OVER: ("over", "across", "throughout", "through", "around", "all over", "all around", "all across"),
     Role.NEAR: ("near", "beside", "next to", "close to", "near to"),
     Role.FROM: ("from", "out of"),
@@ -107,7 +136,7 @@ FUNCTION_WORDS: dict[Role, tuple[str, ...]] = {
         "nevermind", "on second thought", "on second thoughts", "oops", "my mistake", "forget", "forget it", "undo",
         "strike that", "or rather", "disregard", "not only", "not just", "changed my mind", "hang on", "hold on",
     ),
-    Role.PRONOUN: ("it", "them", "him", "her", "they", "there", "its", "their", "his"),
+    Role.PRONOUN: ("it", "them", "him", "her", "they", "there", "over there", "its", "their", "his"),
     Role.WHOEVER: (
         "whoever", "whomever", "anyone", "anybody", "someone", "somebody", "any one", "anyone that", "anyone who",
     ),
@@ -120,7 +149,7 @@ FUNCTION_WORDS: dict[Role, tuple[str, ...]] = {
 }  # fmt: skip
 """Phrases by role. A phrase may stand under several roles (`have`, `do`): the reader picks by what follows."""
 
-ROLE_ORDER: tuple[Role, ...] = (Role.LIGHT, Role.CAUSE, Role.BE)
+ROLE_ORDER: tuple[Role, ...] = (Role.LIGHT, Role.CAUSE, Role.BE, Role.OPENER)
 """Roles that hold only before a fitting word; tried in this order before the plain roles."""
 
 REQUESTER = "requester"
@@ -144,6 +173,19 @@ ADVERBS: frozenset[str] = _set(
 
 ZONE_NOUNS: tuple[str, ...] = ("half", "part", "side", "section", "area", "zone", "region", "sector", "portion")
 """Nouns that are interchangeable at the end of a zone's name, when no other zone bears that name."""
+
+LEFT_ALONE: tuple[tuple[str, ...], ...] = tuple(
+    tuple(tail.split())
+    for tail in (
+        "where it is", "where they are", "where he is", "where she is", "as it is", "as they are", "alone", "in peace",
+        "in place", "behind", "still", "there", "out of this", "out of it", "untouched",
+    )
+)  # fmt: skip
+"""What follows a name in `leave the cube where it is`, `keep the rover still`: the thing is to be left out."""
+IN_NEED: frozenset[str] = _set("hurt injured lost missing wounded stranded trapped there")
+"""What `whoever is ...` may say of the person that is to be found."""
+NOTHING_SAID: frozenset[str] = _set("anywhere anything whatsoever else ever")
+"""Words that add nothing inside a negation."""
 
 PLACE_NOUNS: frozenset[str] = _set(
     "position positions location coordinates coordinate point spot place whereabouts waypoint goal"

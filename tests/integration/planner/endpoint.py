@@ -134,7 +134,7 @@ def streamed(submitted: Any) -> Reply:
         *(_delta(piece) for piece in pieces),
         {"type": "content_block_stop", "index": 0},
     ]
-    ends = [
+    ends: list[dict[str, Any]] = [
         {"type": "message_delta", "delta": {"stop_reason": "tool_use"}, "usage": {"output_tokens": 150}},
         {"type": "message_stop"},
     ]
