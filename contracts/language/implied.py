@@ -32,9 +32,9 @@ def implied_verbs(pieces: list[Piece], lexicon: Lexicon) -> None:
         if words and means:
             verb = Piece(piece.first, piece.after, Role.MENTION, norm=words[0], kind=MentionKind.ACTION, name=words[0])
             verb.means, verb.form = means, Form.BASE
-            owner = before(pieces, at)
-            start = pieces.index(owner) if owner is not None and owner.is_robot else at
-            pieces.insert(at if start < at else _first_of_name(pieces, at), verb)
+            owner = piece if piece.is_robot else before(pieces, at)
+            by_robot = owner is not None and owner.is_robot
+            pieces.insert((at + 1 if piece.is_robot else at) if by_robot else _first_of_name(pieces, at), verb)
             return
 
 
@@ -49,8 +49,12 @@ def _place_asked_for(pieces: list[Piece]) -> Piece | None:
 def _words(pieces: list[Piece], at: int) -> tuple[str, ...]:
     """The verbs that a preposition between a name and a place implies; none if it does not stand there."""
     piece, owner, place = pieces[at], before(pieces, at), behind(pieces, at)
+    if piece.is_robot and place is not None and place.kind in _PLACES and _alone(pieces, at):
+        return _MOVED[True] if pieces[at + 1] is place else ()  # "tb3 home"
     if owner is None or place is None or place.kind not in _PLACES or not _alone(pieces, at):
         return ()
+    if piece.role is Role.AT and owner.is_robot:
+        return _MOVED[True]
     if piece.role is Role.TO and (owner.is_robot or owner.kind is MentionKind.OBJECT):
         return _MOVED[owner.is_robot]
     return _PUT if piece.role is Role.AT and owner.kind is MentionKind.OBJECT else ()

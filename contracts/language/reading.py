@@ -58,6 +58,10 @@ def _everything(pieces: list[Piece], lexicon: Lexicon) -> None:
         if piece.role is not Role.EVERYTHING and not whole:
             continue
         ending = [p for p in (before(pieces, at), behind(pieces, at)) if p is not None and p.is_action]
+        sweeps = (p for p in (before(pieces, at),) if p is not None and p.is_action)
+        if any((r.contract, r.step) in lexicon.zone_steps for verb in sweeps for r in verb.means):
+            piece.become(Role.FILLER)  # "scan everything": the whole area, which is the default
+            continue
         refs = [r for verb in ending[:1] for r in verb.means if r.contract in lexicon.preempting]
         if refs:
             ending[0].means = tuple(r for r in lexicon.ending if r.contract == refs[0].contract)

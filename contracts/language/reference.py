@@ -33,6 +33,9 @@ def pronouns(pieces: list[Piece], tokens: list[Token], lexicon: Lexicon) -> list
 def _resolve(pieces: list[Piece], at: int, lexicon: Lexicon) -> str | None:
     """Resolve one pronoun, or say why it cannot be."""
     pronoun = pieces[at]
+    if pronoun.norm in ("its", "their") and at + 1 < len(pieces) and pieces[at + 1].is_entity:
+        pronoun.become(Role.FILLER)  # "its charging station"
+        return None
     earlier = [p for p in pieces[:at] if p.is_entity and p.direction is not Direction.FROM]
     for group in _groups(pieces, at, lexicon):
         found = [p for p in earlier if p.kind in group and _able(pieces, at, p, lexicon)]
@@ -99,7 +102,11 @@ def participles(pieces: list[Piece]) -> None:
         if piece.is_action and piece.form is Form.ING and auxiliary is not None and auxiliary.norm == "be":
             auxiliary.become(Role.FILLER)  # "must be searching"
         if piece.is_action and piece.form is Form.PAST:
-            passive = auxiliary is not None and auxiliary.norm in ("be", "were")
+            wished = any(p.role is Role.FILLER and p.norm.endswith(" that") for p in pieces[:at])
+            passive = auxiliary is not None and (auxiliary.norm in ("be", "were") or wished)
+            if _found(pieces, at):
+                piece.become(Role.FILLER)
+                continue
             if passive or _in_time_clause(pieces, at) or _wanted_done(pieces, at):
                 if auxiliary is not None:
                     auxiliary.become(Role.FILLER)
@@ -109,6 +116,14 @@ def participles(pieces: list[Piece]) -> None:
         if piece.role is Role.BE:
             negated = at + 1 < len(pieces) and pieces[at + 1].role is Role.NOT
             piece.become(Role.FILLER if negated or _ends_where(pieces, at) else Role.UNREAD)
+
+
+def _found(pieces: list[Piece], at: int) -> bool:
+    """`the found person`."""
+    owner = pieces[at - 1] if at else None
+    named = pieces[at + 1] if at + 1 < len(pieces) else None
+    determined = owner is not None and owner.role is Role.DETERMINER
+    return determined and named is not None and named.kind is MentionKind.VALUE
 
 
 def _wanted_done(pieces: list[Piece], at: int) -> bool:

@@ -206,7 +206,8 @@ class Scanner:
             return Piece(at, end, Role.FILLER)  # "don't send anyone"
         if end + 1 < len(self.tokens) and self.tokens[end].norm == "is" and self.tokens[end + 1].norm in IN_NEED:
             known = set(self.lexicon.reports.values())
-            return _value(at, end + 2, known.pop()) if len(known) == 1 else Piece(at, end + 2, Role.UNREAD)
+            away = self._past(self._past(end + 2, ("out",)), ("there",))
+            return _value(at, away, known.pop()) if len(known) == 1 else Piece(at, end + 2, Role.UNREAD)
         last = next((p for p in reversed(self.pieces) if p.role not in (Role.FOR, Role.FILLER)), None)
         value = self._reported(last.means) if last is not None and last.is_action else None
         return Piece(at, end, Role.UNREAD) if value is None else _value(at, end, value)
@@ -232,6 +233,8 @@ class Scanner:
         name = self._name(self._past(at + 1, tuple(_ARTICLES)))
         if token.norm == "off" and name is not None and name.kind is MentionKind.LOCATION:
             return Piece(at, at + 1, Role.FROM, norm=token.norm)  # "take the cube off the table"
+        if token.norm in ("he", "she", "it") and self.pieces and self.pieces[-1].is_robot:
+            return Piece(at, at + 1, Role.FILLER)  # "the dog he must go"
         if token.norm in NOTHING_SAID and self._negated():
             return Piece(at, at + 1, Role.FILLER)  # "do not drive anywhere"
         unread = is_numeral(self.tokens, at) or token.norm in _NEVER_NAMES or token.norm.endswith("ly")

@@ -59,6 +59,7 @@ FUNCTION_WORDS: dict[Role, tuple[str, ...]] = {
         "good morning", "good afternoon", "good evening", "dear", "also", "it is time to", "time to",
         "your task is to", "your job is to", "your mission is to", "the task is to", "you have to", "you need to",
         "it would be nice to", "it would be great to", "it would be nice if you could", "if you could",
+        "it is necessary to", "it is important to",
         "it would be great if you could", "has to", "needs to", "have to", "need to", "the job is to", "take care to",
         "be so kind", "be so kind as", "be so kind and", "could someone", "could somebody", "can someone",
         "can somebody", "would someone", "would somebody", "you can", "you may", "you guys", "please to",
@@ -118,7 +119,7 @@ FUNCTION_WORDS: dict[Role, tuple[str, ...]] = {
     Role.NO: ("no",),
     Role.EXCEPT: (
         "except", "except for", "excluding", "apart from", "other than", "rather than", "instead of", "but for",
-        "not including", "all but",
+        "not including", "all but", "no need for", "there is no need for", "i don't need", "we don't need",
         "anywhere but", "everywhere but", "everything but", "anything but", "aside from", "save for", "minus", "less",
     ),
     Role.AVOID: (

@@ -49,13 +49,13 @@ def test_what_is_shipped_is_not_odd(crew: str) -> None:
         ),
         (
             "search_and_dispatch",
-            ("    after: [report]\n    do", "    after: [report]\n    needs: [{victim: ok}]\n    do"),
+            ("    after: [report]\n    words", "    after: [report]\n    needs: [{victim: ok}]\n    words"),
             "the guard 'victim is ok' always holds: the call goes there",
             "victim: ok",
         ),
         (
             "search_and_dispatch",
-            ("    after: [report]\n    do", "    after: [report]\n    needs: [{if: {person: victim}, responder.at: base}]\n    do"),  # noqa: E501
+            ("    after: [report]\n    words", "    after: [report]\n    needs: [{if: {person: victim}, responder.at: base}]\n    words"),  # noqa: E501
             "'if person is victim' always holds: the slot person is never anything else",
             "responder.at: base",
         ),
@@ -85,7 +85,7 @@ def test_what_is_shipped_is_not_odd(crew: str) -> None:
         ),
         (
             "navigation_only",
-            ("    words: [need, want]\n", "    needs: [{walker.at: $destination}, {walker.moving: false}]\n"),
+            ("    do: {navigate", "    needs: [{walker.at: $destination}, {walker.moving: false}]\n    do: {navigate"),
             "step go changes nothing that shows: walker.at holds already, a guard of this step says so",
             "do:",
         ),
@@ -123,7 +123,7 @@ def test_a_step_that_repeats_an_earlier_one_changes_nothing() -> None:
     again = "  again: {role: searcher, after: [takeoff, report], do: {takeoff: {altitude: 5}}}\n"
     text = text_of("search_only")
     land = text[text.index("  land:\n") : text.index("complete:")]
-    required = ("    optional: true\n    do: {takeoff", "    do: {takeoff")
+    required = ("    optional: true\n    words: [get up, take up]\n    do: {takeoff", "    do: {takeoff")
     found, _ = warnings("search_only", (land, again), required)
     assert [o.what for o in found] == [
         "step again changes nothing that shows: searcher.airborne holds already, step takeoff has brought it about"
