@@ -8,10 +8,11 @@ import msgspec
 
 from crew.cli.output import coloured, say, say_json
 from crew.cli.progress import proof_progress
+from crew.contracts.odd.look import oddities
 from crew.contracts.proof import LIMIT, Fallback, Finding, Report, check
 from crew.contracts.site import Rules
 from crew.errors import CrewError, UsageError
-from crew.library import crew_names, load_rules
+from crew.library import crew_names, load_rules, read_text
 from crew.proofs import tell
 
 NOT_PROVED = UsageError.exit_code
@@ -33,20 +34,25 @@ class Verdict(msgspec.Struct, frozen=True, kw_only=True):
     counterexample: tuple[str, ...] | None
     findings: tuple[Finding, ...]
     fallbacks: tuple[Fallback, ...]
+    warnings: tuple[str, ...] = ()
+    """What is legal but odd, with file, line and column; no reason to refuse."""
 
 
 def run_check(files: Sequence[Path], crew: str, as_json: bool, limit: int = LIMIT) -> int:
     """0 if every contract is proved, 2 if one is not."""
     verdicts = []
     for rules, names in _wanted(files, crew):
+        odd = warnings_of(rules)
         for name in names:
             began = time.perf_counter()
             with proof_progress() as progress:
                 report = check(rules, name, limit=limit, progress=progress)
             seconds = round(time.perf_counter() - began, 3)
-            verdicts.append(_verdict(report, rules, seconds))
+            verdicts.append(_verdict(report, rules, seconds, odd[name]))
             if not as_json:
                 say_report(report, rules, seconds)
+                for warning in odd[name]:
+                    say(coloured(warning, "amber"))
     if as_json:
         say_json({"proved": all(v.proved for v in verdicts), "contracts": verdicts})
     return 0 if verdicts and all(v.proved for v in verdicts) else NOT_PROVED
@@ -63,6 +69,13 @@ def say_report(report: Report, rules: Rules, seconds: float) -> None:
     say(f"{coloured('not proved', 'red')}  {report.contract:22} {counts}, {seconds:.1f} s")
     for line in tell(report, rules)[1:]:
         say(line)
+
+
+def warnings_of(rules: Rules) -> dict[str, tuple[str, ...]]:
+    """What is legal but odd, by contract."""
+    texts = {name: read_text(Path(contract.source)) for name, contract in rules.contracts.items()}
+    found = oddities(rules, texts)
+    return {n: tuple(str(o) for o in found if o.source == c.source) for n, c in rules.contracts.items()}
 
 
 def _wanted(files: Sequence[Path], crew: str) -> Iterator[tuple[Rules, list[str]]]:
@@ -92,7 +105,7 @@ def _rules_for(path: Path) -> Rules:
     raise UsageError(f"{first}\n(read for crew {(*named, *others)[0]}; name another one with --crew)")
 
 
-def _verdict(report: Report, rules: Rules, seconds: float) -> Verdict:
+def _verdict(report: Report, rules: Rules, seconds: float, warnings: tuple[str, ...]) -> Verdict:
     return Verdict(
         contract=report.contract,
         crew=rules.crew.name,
@@ -107,6 +120,7 @@ def _verdict(report: Report, rules: Rules, seconds: float) -> Verdict:
         counterexample=report.counterexample or None,
         findings=report.findings,
         fallbacks=report.fallbacks,
+        warnings=warnings,
     )
 
 

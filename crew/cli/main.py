@@ -304,11 +304,16 @@ def contracts_check(
     limit: Annotated[int, typer.Option(min=1, help="States of one contract, beyond which it counts as not proved.")] = (
         200_000
     ),
+    watch: Annotated[bool, typer.Option("--watch", help="Check again whenever a file changes, until Ctrl-C.")] = False,
     as_json: AsJson = False,
 ) -> None:
     """Prove contracts: every plan, every world, every failure. Exit 0 only if all are proved."""
     from crew.cli.contract_check import run_check
 
+    if watch:
+        from crew.cli.contract_watch import run_watch
+
+        _end(run_watch(files or (), crew, as_json, limit))
     _end(run_check(files or (), crew, as_json, limit))
 
 

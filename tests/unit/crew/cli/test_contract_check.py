@@ -9,6 +9,7 @@ from crew.cli.contract_check import run_check
 from crew.cli.progress import line
 from crew.contracts.proof import LIMIT, Stage
 from crew.errors import UsageError
+from crew.library import CONTRACTS
 from tests.unit.contracts.proof.zoo import ZOO
 
 
@@ -69,3 +70,21 @@ def test_the_bar_fills_up() -> None:
     assert line(Stage("carry", 0, 4, 12)).endswith("[........................] plan 1 of 4, 12 states")
     assert "[############............]" in line(Stage("carry", 2, 4, 12))
     assert LIMIT == 200_000, "the default of --limit"
+
+
+def test_what_is_odd_is_said_with_its_place_and_refuses_nothing(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    text = (CONTRACTS / "handover.yaml").read_text(encoding="utf-8")
+    spare = text.replace(
+        "  object: {type: object}\n", "  object: {type: object}\n  spare: {type: object, optional: true}\n"
+    )
+    path = tmp_path / "handover.yaml"
+    path.write_text(spare, encoding="utf-8")
+    assert run_check([path], "humanoid_quadruped", as_json=False) == 0
+    line_of = spare.splitlines().index("  spare: {type: object, optional: true}") + 1
+    warning = f"{path}:{line_of}:3: warning: no step reads the slot spare; pass it to a step, or remove it"
+    assert warning in capsys.readouterr().out
+    assert run_check([path], "humanoid_quadruped", as_json=True) == 0
+    (contract,) = json.loads(capsys.readouterr().out)["contracts"]
+    assert contract["warnings"] == [warning]
