@@ -4,6 +4,7 @@ from collections.abc import Iterator
 
 from crew.contracts.contract import Contract
 from crew.contracts.render.graph import Box, graph_of
+from crew.contracts.render.wording import escaped
 
 
 def contract_graph(contract: Contract) -> str:
@@ -24,17 +25,11 @@ def _lines(contract: Contract) -> Iterator[str]:
 
 def _box(box: Box) -> str:
     if not box.role:
-        return f'(["{"<br/>".join([box.title, *map(_escape, box.lines)])}"])'
-    label = "<br/>".join([f"<b>{box.title}</b>", *map(_escape, box.lines)])
+        return f'(["{"<br/>".join([box.title, *map(escaped, box.lines)])}"])'
+    label = "<br/>".join([f"<b>{box.title}</b>", *map(escaped, box.lines)])
     return f'["{label}"]{":::optional" if box.optional else ""}'
 
 
 def _id(box: Box) -> str:
     """Prefixed, since Mermaid keeps words such as `end` for itself."""
     return f"step_{box.name}" if box.role else box.name
-
-
-def _escape(text: str) -> str:
-    for char, entity in (("&", "&amp;"), ('"', "&quot;"), ("<", "&lt;"), (">", "&gt;")):
-        text = text.replace(char, entity)
-    return text

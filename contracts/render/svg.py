@@ -7,6 +7,7 @@ from textwrap import wrap
 from crew.contracts.contract import Contract
 from crew.contracts.render.graph import Arrow, Box, graph_of
 from crew.contracts.render.layers import Layout, Size, Spot, lay_out
+from crew.contracts.render.wording import escaped
 
 MARGIN, PAD, LINE, TITLE = 20.0, 12.0, 17.0, 20.0
 """Around the picture; inside a box; the height of a line and of a title."""
@@ -35,13 +36,13 @@ def _document(contract: Contract) -> Iterator[str]:
         f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width:.0f} {height:.0f}" width="{width:.0f}" '
         f'height="{height:.0f}" font-family="system-ui, sans-serif" font-size="12" fill="{INK}" role="img">'
     )
-    yield f"<title>{_escape(contract.name)}: {_escape(contract.summary)}</title>"
+    yield f"<title>{escaped(contract.name)}: {escaped(contract.summary)}</title>"
     yield f'<rect width="{width:.0f}" height="{height:.0f}" fill="#ffffff"/>'
     yield (
         '<defs><marker id="tip" viewBox="0 0 10 10" refX="9" refY="5" markerWidth="7" markerHeight="7" '
         f'orient="auto"><path d="M0 0L10 5L0 10z" fill="{FAINT}"/></marker></defs>'
     )
-    yield f'<text x="{MARGIN:.0f}" y="{MARGIN:.0f}" font-size="15" font-weight="bold">{_escape(contract.name)}</text>'
+    yield f'<text x="{MARGIN:.0f}" y="{MARGIN:.0f}" font-size="15" font-weight="bold">{escaped(contract.name)}</text>'
     yield f'<g transform="translate({MARGIN:.0f} {MARGIN + TITLE:.0f})">'
     yield from (_arrow(arrow, layout, sizes) for arrow in graph.arrows)
     for name, box in boxes.items():
@@ -69,10 +70,10 @@ def _box(box: Box, at: Spot, size: Size, tint: str) -> Iterator[str]:
     )
     y += PAD + 10
     weight = ' font-weight="bold"' if box.role else f' fill="{FAINT}"'
-    yield f'<text x="{at.x:.1f}" y="{y:.1f}" font-size="13" text-anchor="middle"{weight}>{_escape(box.title)}</text>'
+    yield f'<text x="{at.x:.1f}" y="{y:.1f}" font-size="13" text-anchor="middle"{weight}>{escaped(box.title)}</text>'
     for number, line in enumerate(box.lines, start=1):
         faint = f' fill="{FAINT}"' if box.role and line == "needs" else ""
-        yield f'<text x="{at.x:.1f}" y="{y + number * LINE + 2:.1f}" text-anchor="middle"{faint}>{_escape(line)}</text>'
+        yield f'<text x="{at.x:.1f}" y="{y + number * LINE + 2:.1f}" text-anchor="middle"{faint}>{escaped(line)}</text>'
 
 
 def _arrow(arrow: Arrow, layout: Layout, sizes: dict[str, Size]) -> str:
@@ -89,9 +90,3 @@ def _arrow(arrow: Arrow, layout: Layout, sizes: dict[str, Size]) -> str:
         path += f" C{a.x:.1f} {middle:.1f} {b.x:.1f} {middle:.1f} {b.x:.1f} {b.y:.1f}"
     dash = ' stroke-dasharray="5 4"' if arrow.dashed else ""
     return f'<path d="{path}" fill="none" stroke="{FAINT}" stroke-width="1.3" marker-end="url(#tip)"{dash}/>'
-
-
-def _escape(text: str) -> str:
-    for char, entity in (("&", "&amp;"), ("<", "&lt;"), (">", "&gt;"), ('"', "&quot;")):
-        text = text.replace(char, entity)
-    return text

@@ -63,5 +63,12 @@ def listed(items: Iterable[str], *, word: str = "and") -> str:
     return f"{', '.join(most)} {word} {last}" if most else last
 
 
+def escaped(text: str) -> str:
+    """Text for a place where markup is read."""
+    for char, entity in (("&", "&amp;"), ('"', "&quot;"), ("<", "&lt;"), (">", "&gt;")):
+        text = text.replace(char, entity)
+    return text
+
+
 def _spaced(name: str) -> str:
     return name.replace("_", " ")
