@@ -2,7 +2,7 @@
 
 from itertools import combinations, pairwise
 
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from crew.contracts.render.layers import GAP_X, Size, Spot, lay_out
@@ -23,6 +23,7 @@ def overlaps(a: Spot, a_size: Size, b: Spot, b_size: Size) -> bool:
     return abs(a.x - b.x) * 2 < a_size.w + b_size.w and abs(a.y - b.y) * 2 < a_size.h + b_size.h
 
 
+@settings(deadline=None)
 @given(graph=graphs())
 def test_boxes_stay_apart_and_inside(graph: Graph) -> None:
     sizes, arrows = graph
@@ -36,6 +37,7 @@ def test_boxes_stay_apart_and_inside(graph: Graph) -> None:
         assert spot.y + sizes[name].h / 2 <= layout.size.h + 0.01
 
 
+@settings(deadline=None)
 @given(graph=graphs())
 def test_every_arrow_leads_down_and_passes_beside_the_boxes(graph: Graph) -> None:
     sizes, arrows = graph
