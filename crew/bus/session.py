@@ -22,8 +22,11 @@ LEASE_MS = 2000
 """A peer that says nothing for so long is gone (a process that dies is noticed at once)."""
 
 
-def open_session(link: Link, *, timeout_s: float = CONNECT_TIMEOUT_S) -> zenoh.Session:
-    """A client session; BusError if no router answers in time, UsageError if the certificate is at fault."""
+def open_session(link: Link, *, timeout_s: float = CONNECT_TIMEOUT_S, restrained: bool = True) -> zenoh.Session:
+    """A client session; BusError if no router answers in time, UsageError if the certificate is at fault.
+
+    Without `restrained` it keeps no rules of its own: for trying what the router forbids.
+    """
     settings = {
         **_common(),
         "mode": "client",
@@ -32,7 +35,8 @@ def open_session(link: Link, *, timeout_s: float = CONNECT_TIMEOUT_S) -> zenoh.S
         "transport/link/protocols": [link.endpoint.partition("/")[0]],
     }
     if (identity := link.identity) is not None:
-        settings |= {"transport/link/tls": _tls(link, "connect"), "access_control": client_access(identity)}
+        settings |= {"transport/link/tls": _tls(link, "connect")}
+        settings |= {"access_control": client_access(identity)} if restrained else {}
     try:
         return zenoh.open(_config(settings))
     except zenoh.ZError as error:

@@ -23,6 +23,8 @@ contracts_app = typer.Typer(help="Workflow contracts.", no_args_is_help=True, ri
 planner_app = typer.Typer(help="The mission planner.", no_args_is_help=True, rich_markup_mode=None)
 app.add_typer(contracts_app, name="contracts")
 app.add_typer(planner_app, name="planner")
+certs_app = typer.Typer(help="The crew's own certificates.", no_args_is_help=True, rich_markup_mode=None)
+app.add_typer(certs_app, name="certs")
 
 CrewName = Annotated[str, typer.Argument(metavar="[CREW]", help="A shipped crew's name, or the path of a crew file.")]
 CrewOption = Annotated[str, typer.Option("--crew", help="The crew to speak to; may be left out if one runs.")]
@@ -371,6 +373,47 @@ def planner_prompt(
     from crew.cli.planner import run_prompt
 
     _end(run_prompt(text, crew, context, as_json))
+
+
+Hosts = Annotated[
+    list[str] | None, typer.Option("--host", help="A further name or address of the router's machine; may be repeated.")
+]
+
+
+@certs_app.command("init")
+def certs_init(crew: CrewName = "air_ground", host: Hosts = None) -> None:
+    """Make the crew's authority and certificates, as far as they are missing."""
+    from crew.cli.certs import run_init
+
+    _end(run_init(crew, tuple(host or ())))
+
+
+@certs_app.command("show")
+def certs_show(crew: CrewName = "air_ground", as_json: AsJson = False) -> None:
+    """Show every certificate of a crew, and until when it is valid."""
+    from crew.cli.certs import run_show
+
+    _end(run_show(crew, as_json))
+
+
+@certs_app.command("rotate")
+def certs_rotate(crew: CrewName = "air_ground", host: Hosts = None) -> None:
+    """Replace the authority and all certificates; the earlier ones are worthless from then on."""
+    from crew.cli.certs import run_rotate
+
+    _end(run_rotate(crew, tuple(host or ())))
+
+
+@app.command()
+def doctor(
+    crew: CrewName = "air_ground",
+    authority: Annotated[bool, typer.Option("--authority", help="Who may do what, and try what is forbidden.")] = False,
+    as_json: AsJson = False,
+) -> None:
+    """Look for what would keep a crew from running, and say what to do about it."""
+    from crew.cli.doctor import run_doctor
+
+    _end(run_doctor(crew, authority, as_json))
 
 
 def _options(

@@ -72,9 +72,9 @@ async def live_crew(
     """Bring a crew up; yield it once a round trip through its keys has shown every robot; bring it down."""
     rules = resolve(options)
     check_choice(options.planning, os.environ)
+    establish(home.certificates(rules.crew.name), roles(rules.crew))
     with progress() as tell:
         ensure_proved(rules, home, tell)
-    establish(home.certificates(rules.crew.name), roles(rules))
     guests = f"tcp/127.0.0.1:{options.port or free_tcp_port()}"
     run_folder = new_run_folder(options.runs, rules.crew.name)
     exits: asyncio.Queue[Exit] = asyncio.Queue()

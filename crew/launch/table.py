@@ -6,7 +6,7 @@ from pathlib import Path
 
 from crew.access import ROBOT_PREFIX, ROUTER, Role, identities
 from crew.actors.specs import PLANNER_KEYS, GatewaySpec, OrchestratorSpec, PlannerSpec, RecorderSpec, RobotActorSpec
-from crew.contracts.site import Rules
+from crew.contracts.site import Crew, Rules
 from crew.home import Running
 from crew.launch.options import LaunchOptions
 from crew.packed import pack
@@ -100,9 +100,9 @@ def _recorder(spec: RecorderSpec) -> Child:
     )
 
 
-def roles(rules: Rules) -> list[str]:
+def roles(crew: Crew) -> list[str]:
     """Everybody who needs a certificate in this crew."""
-    everybody = identities(rules.crew.name, (robot.name for robot in rules.crew.robots))
+    everybody = identities(crew.name, (robot.name for robot in crew.robots))
     return [ROUTER, *(identity.name for identity in everybody if identity.role is not Role.GUEST)]
 
 

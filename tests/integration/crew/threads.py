@@ -133,7 +133,7 @@ async def crew_with_threads(desk: Desk, *names: str, speed: float = 0.0) -> Asyn
     options = LaunchOptions(crew=NAME, speed=speed, port=0, runs=desk.runs)
     rules = resolve(options)
     folder = new_run_folder(desk.runs, NAME)
-    establish(desk.home.certificates(NAME), roles(rules))
+    establish(desk.home.certificates(NAME), roles(rules.crew))
     endpoint, guests = (f"{kind}/127.0.0.1:{free_tcp_port()}" for kind in ("tls", "tcp"))
     adapters: dict[str, Adapter] = {}
     make_adapter = robot_process.make_adapter
