@@ -11,7 +11,13 @@ RESERVED = frozenset(
 )
 """Names that hold a place of their own beside the robots."""
 
+LONGEST_CHUNK = 128
 _CHUNK = re.compile(r"[a-z0-9_-]+", re.ASCII)
+
+
+def is_chunk(value: str) -> bool:
+    """Whether `value` is one plain chunk of a key, of a length that a person could read."""
+    return len(value) <= LONGEST_CHUNK and _CHUNK.fullmatch(value) is not None
 
 
 def checked_chunk(value: str, what: str) -> str:

@@ -22,7 +22,7 @@ from crew.contracts.language.reading import read_request
 from crew.contracts.mission import event as ev
 from crew.contracts.mission_state import MissionState
 from crew.contracts.site import Rules
-from crew.keys import Keys
+from crew.keys import Keys, is_chunk
 from crew.mailbox import Events, KeepLatest, Letter, Mailbox, letters
 from crew.messages import (
     Answer,
@@ -180,6 +180,9 @@ class Orchestrator:
                     self.shell.cancel(mission, by=cancel.by or "a person")
 
     def _take_request(self, intake: Intake) -> None:
+        if not is_chunk(intake.mission):
+            self._lost_messages["foreign"] += 1
+            return
         if intake.mission in self.shell.missions:
             return
         reading = read_request(intake.text, self._lexicon)

@@ -52,16 +52,8 @@ def open_router(link: Link, robots: Sequence[str], *, guests: str = "") -> zenoh
 
     UsageError if an address cannot be listened on, or the certificate is at fault.
     """
-    endpoints = [link.endpoint, guests] if guests else [link.endpoint]
-    settings = {
-        **_common(),
-        "mode": "router",
-        "listen": {"endpoints": endpoints, "timeout_ms": 0, "exit_on_failure": True},
-        "connect": {"endpoints": []},
-        "transport/link/protocols": [endpoint.partition("/")[0] for endpoint in endpoints],
-        "transport/link/tls": _tls(link, "listen"),
-        "access_control": router_access(link.crew, robots),
-    }
+    settings = router_settings(link, robots, guests=guests)
+    endpoints = settings["listen"]["endpoints"]
     try:
         return zenoh.open(_config(settings))
     except zenoh.ZError as error:
@@ -72,6 +64,20 @@ def open_router(link: Link, robots: Sequence[str], *, guests: str = "") -> zenoh
         raise UsageError(
             f"{what}: the router was to listen on {' and '.join(endpoints)} ({_brief(error)}); {remedy}"
         ) from error
+
+
+def router_settings(link: Link, robots: Sequence[str], *, guests: str = "") -> dict[str, Any]:
+    """What the router is configured with, by path; a stock one is given the same (`crew deploy`)."""
+    endpoints = [link.endpoint, guests] if guests else [link.endpoint]
+    return {
+        **_common(),
+        "mode": "router",
+        "listen": {"endpoints": endpoints, "timeout_ms": 0, "exit_on_failure": True},
+        "connect": {"endpoints": []},
+        "transport/link/protocols": [endpoint.partition("/")[0] for endpoint in endpoints],
+        "transport/link/tls": _tls(link, "listen"),
+        "access_control": router_access(link.crew, robots),
+    }
 
 
 def _common() -> dict[str, Any]:
