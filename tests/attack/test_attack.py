@@ -8,7 +8,7 @@ import pytest
 from crew.messages import Intake, RobotState
 from tests.attack import insiders, strangers
 from tests.attack.__main__ import PAGE
-from tests.attack.row import Row, table
+from tests.attack.row import Row, rights, table
 from tests.attack.scene import ATTACKERS, Scene, scene_of
 from tests.integration.crew.harness import Desk, Up, Watch, wait_until, watching
 
@@ -23,6 +23,10 @@ def up(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Up]:
 def scene(up: Up) -> Iterator[Scene]:
     with scene_of(up.running) as scene:
         yield scene
+
+
+def test_the_page_shows_the_table_of_rights() -> None:
+    assert rights() in PAGE.read_text(encoding="utf-8"), "write it anew with: python -m tests.attack"
 
 
 async def test_a_robot_that_speaks_in_another_name_is_not_believed(scene: Scene, up: Up) -> None:
