@@ -90,9 +90,8 @@ async def _probe(
             with Intruder(way) as intruder:
                 findings.append(await _forbidden(identity, intruder, robots, keys, heard))
         if live:
-            findings.append(
-                _verdict(await _awaited(lambda: bool(beats)), "control", "robots hear the orchestrator's heartbeat")
-            )
+            alive = await _awaited(lambda: bool(beats))
+            findings.append(_verdict(alive, "orchestrator", f"its heartbeat {'arrives' if alive else 'is LOST'}"))
         else:
             findings.append(await _permitted(link, robots, keys, heard))
     return findings

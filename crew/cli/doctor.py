@@ -16,7 +16,7 @@ from pathlib import Path
 
 import msgspec
 
-from crew.authority import AUTHORITY, EXPIRES_SOON, check
+from crew.authority import EXPIRES_SOON, check
 from crew.cli.output import coloured, say, say_json
 from crew.cli.session import home, run
 from crew.contracts.site import Crew
@@ -183,7 +183,7 @@ def _private(path: Path, wanted: str, mode: int) -> Iterator[Finding]:
 
 def _certificates(crew: Crew, home: Home) -> Iterator[Finding]:
     folder = home.certificates(crew.name)
-    if not (folder / f"{AUTHORITY}.crt").exists():
+    if not [*folder.glob("*.crt"), *folder.glob("*.key")]:
         yield Finding(Verdict.SKIP, "certificates", f"{crew.name} has none yet; crew up makes them")
         return
     try:
