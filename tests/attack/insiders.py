@@ -37,7 +37,7 @@ def _forge(scene: Scene, forgery: Forgery) -> Row:
         payload, encoding = forged(forgery.key, mark)
         scene.session(role).put(key, payload, encoding=encoding)
 
-    before = _status(scene)
+    before = _steady(scene)
     for attacker in by:
         put(attacker, f"{stem}-by-{attacker}")
     scene.settle()
@@ -54,7 +54,7 @@ def _forge(scene: Scene, forgery: Forgery) -> Row:
 def _delete(scene: Scene) -> Row:
     by = _others("orchestrator")
     mark = "deleted"
-    before = _status(scene)
+    before = _steady(scene)
     for attacker in by:
         scene.session(attacker).delete(scene.key(f"tb3/@act/{mark}"))
     scene.settle()
@@ -64,7 +64,7 @@ def _delete(scene: Scene) -> Row:
 
 def _wildcard_put(scene: Scene) -> Row:
     by = _others("orchestrator")
-    before = _status(scene)
+    before = _steady(scene)
     wild = [key.format(crew=scene.running.crew) for key in WILD]
     for attacker in by:
         for key in wild:
@@ -79,7 +79,7 @@ def _wildcard_put(scene: Scene) -> Row:
 
 def _publish(scene: Scene) -> Row:
     by = _others("orchestrator")
-    before = _status(scene)
+    before = _steady(scene)
     matching = 0
     for attacker in by:
         publisher = scene.session(attacker).declare_publisher(scene.key(ACT))
@@ -118,7 +118,7 @@ def _query(scene: Scene) -> Row:
     for attacker in asked:
         if attacker not in ("guest", "operator", "recorder"):
             asked[attacker].append(scene.key("status"))
-    before = _status(scene)
+    before = _steady(scene)
     replies = sum(_asked(scene, attacker, key) for attacker, keys in asked.items() for key in keys)
     seen = _operator_sees(before, _status(scene))
     attempts = sum(len(keys) for keys in asked.values())
@@ -139,7 +139,7 @@ def _rogue_queryable(scene: Scene) -> Row:
             )
             scene.keep(rogue)
     scene.settle()
-    before = _status(scene)
+    before = _steady(scene)
     replies = _asked(scene, "operator", scene.key("status"), wait_s=2.0)
     seen = _operator_sees(before, _status(scene))
     name = "rogue queryable of the status, of requests, of everything"
@@ -156,7 +156,7 @@ def _eavesdrop(scene: Scene) -> Row:
                 scene.session(attacker).declare_subscriber(key, lambda sample: heard.append(str(sample.key_expr)))
             )
     scene.settle()
-    before = _status(scene)
+    before = _steady(scene)
     seen = _operator_sees(before, _status(scene))
     control, controlled = _act(scene, "e")
     scene.settle()
@@ -166,7 +166,7 @@ def _eavesdrop(scene: Scene) -> Row:
 def _announce(scene: Scene) -> Row:
     """Liveliness in another's name, and in nobody's."""
     by = ATTACKERS
-    before = _status(scene)
+    before = _steady(scene)
     for attacker in by:
         token = scene.session(attacker).liveliness().declare_token(scene.key(f"ghost-{attacker}/alive"))
         scene.keep(token)
@@ -180,7 +180,7 @@ def _announce(scene: Scene) -> Row:
 def _withdraw(scene: Scene) -> Row:
     """A token announced and taken back would make a living robot look dead. Ends the planner: to be the last."""
     by = _others("robot-tb3")
-    before, count = _status(scene), len(_gone(scene, "tb3")) + len(_gone(scene, "orchestrator"))
+    before, count = _steady(scene), len(_gone(scene, "tb3")) + len(_gone(scene, "orchestrator"))
     for attacker in by:
         for name in ("tb3", "orchestrator"):
             token = scene.session(attacker).liveliness().declare_token(scene.key(f"{name}/alive"))
@@ -231,16 +231,28 @@ def _status(scene: Scene) -> CrewStatus:
     raise AssertionError("the orchestrator does not answer")
 
 
+def _steady(scene: Scene) -> CrewStatus:
+    """The status once the controls of earlier attacks have been counted."""
+    known, deadline = _status(scene), time.monotonic() + ARRIVE_S
+    while time.monotonic() < deadline:
+        scene.settle()
+        now = _status(scene)
+        if _told(known) == _told(now):
+            break
+        known = now
+    return known
+
+
 def _operator_sees(before: CrewStatus, after: CrewStatus) -> str:
     """What `crew status` tells of an attack: nothing that moved, latched, failed, began, or was dropped."""
-
-    def told(status: CrewStatus) -> object:
-        robots = [(r.robot, r.unavailable, r.stopped, r.running) for r in status.robots]
-        return robots, [m.mission for m in status.missions], dict(status.dropped), status.stopped, status.epoch
-
-    if told(before) == told(after):
+    if _told(before) == _told(after):
         return "nothing: `crew status` tells the same as before"
-    return f"A CHANGE: {told(before)} became {told(after)}"
+    return f"A CHANGE: {_told(before)} became {_told(after)}"
+
+
+def _told(status: CrewStatus) -> object:
+    robots = [(r.robot, r.unavailable, r.stopped, r.running) for r in status.robots]
+    return robots, [m.mission for m in status.missions], dict(status.dropped), status.stopped, status.epoch
 
 
 def _row(

@@ -2,7 +2,7 @@
 
 import json
 import shutil
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -116,7 +116,7 @@ def test_the_doctor_tries_the_rules_without_a_crew(desk: Desk) -> None:
 
 
 @pytest.fixture
-def bare(tmp_path: Path) -> Iterator[Desk]:
+def bare(tmp_path: Path) -> Desk:
     return Desk(tmp_path)
 
 
