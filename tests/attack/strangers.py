@@ -33,7 +33,7 @@ def attacks(scene: Scene, folder: Path) -> Iterator[Row]:
     establish(other, [ROUTER, "orchestrator", "robot-tb3"])
     mint(authority, folder / "expired", "orchestrator", expired=True)
     mint(authority, folder / "unknown", "root")
-    yield _refused(scene, "no certificate", "stranger", _lets_in(scene, _trust(authority)))
+    yield _refused(scene, "no certificate", "stranger", _lets_in(scene.running.endpoint, _trust(authority)))
     yield _refused(scene, "certificate of another authority", "`orchestrator` of another crew", _opens(scene, other))
     yield _refused(scene, "expired certificate", "`orchestrator`, an hour too old", _opens(scene, folder / "expired"))
     yield _unknown_role(scene, folder / "unknown")
@@ -48,13 +48,14 @@ def attacks(scene: Scene, folder: Path) -> Iterator[Row]:
 def _opens(scene: Scene, certificates: Path) -> bool:
     """Whether the crew's router lets somebody in with these certificates of an orchestrator."""
     return _lets_in(
-        scene, {**_trust(Path(scene.running.certificates)), **_shown("connect", certificates, "orchestrator")}
+        scene.running.endpoint,
+        {**_trust(Path(scene.running.certificates)), **_shown("connect", certificates, "orchestrator")},
     )
 
 
-def _lets_in(scene: Scene, tls: Tls) -> bool:
+def _lets_in(endpoint: str, tls: Tls) -> bool:
     try:
-        _close(_open("client", scene.running.endpoint, tls))
+        _close(_open("client", endpoint, tls))
     except zenoh.ZError:
         return False
     return True
@@ -133,17 +134,18 @@ def _unknown_role(scene: Scene, certificates: Path) -> Row:
 
 
 def _peer_link(scene: Scene) -> Row:
-    """Nobody but the router listens on TCP; every attempt to link to a process past it has nowhere to go."""
+    """No process but the router has a port that speaks Zenoh (the recorder's page is on one that does not)."""
     children = children_of(scene.running.pid)
     listening = {name: _listens(pid) for name, pid in children.items()}
     guests, own = (int(e.rpartition(":")[2]) for e in (scene.running.guests, scene.running.endpoint))
-    reached = sum(len(ports) for name, ports in listening.items() if name != "router")
+    doors = [port for name, ports in listening.items() if name != "router" for port in ports]
+    reached = sum(_lets_in(f"tcp/127.0.0.1:{port}", {}) for port in doors)
     return Row(
         attack="a peer link past the router: to the robots and to every other process",
         by=("stranger",),
         attempts=len(listening) - 1,
         delivered=reached,
-        attacker_sees="no port to connect to: only the router listens",
+        attacker_sees="no port that speaks Zenoh: only the router has one",
         operator_sees=NOBODY_NOTICES,
         control="the router listens, on its two ports",
         controlled=int(listening["router"] == {guests, own}),
