@@ -140,6 +140,12 @@ def test_commands_to_a_running_crew(folder: Folder, running_crew: None) -> None:
         assert done.returncode == 0, f"{command}: {done.stdout}{done.stderr}"
 
 
+def test_commands_that_look_at_a_run(folder: Folder, running_crew: None) -> None:
+    for command in commands("Look at a run"):
+        done = folder.run(*shlex.split(command))
+        assert done.returncode == 0, f"{command}: {done.stdout}{done.stderr}"
+
+
 def test_fault_halts_the_demo(elsewhere: Folder) -> None:
     (command,) = [c for c in commands("Command a crew") if c.startswith("crew demo")]
     done = elsewhere.run(*shlex.split(command))
@@ -167,7 +173,11 @@ def test_make_test_runs_this_suite() -> None:
 
 
 def test_every_command_is_run_by_a_test_here() -> None:
-    run = {*commands("Run it"), *commands("Command a crew"), *commands("How a mission is decided")}
+    run = {
+        line
+        for heading in ("Run it", "Command a crew", "Look at a run", "How a mission is decided")
+        for line in commands(heading)
+    }
     assert {line for b in blocks(README) if b.info == "sh" for line in b.text.splitlines()} == run
     assert {b.info for b in blocks(README)} == {"sh", "text", "python", "mermaid"}
     assert [b.heading for b in blocks(README) if b.info in ("text", "python")] == [
