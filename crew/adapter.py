@@ -9,6 +9,7 @@ import msgspec
 from crew.clock import Clock
 from crew.contracts.skill import SkillArgs
 from crew.contracts.snapshot import FluentValue, ValueReading
+from crew.errors import AdapterError
 
 
 class Place(msgspec.Struct, frozen=True):
@@ -33,6 +34,8 @@ class AdapterConfig(msgspec.Struct, frozen=True, kw_only=True):
     """Latitude and longitude in degrees, altitude AMSL in metres of the world's (0, 0, 0)."""
     obstacles: tuple[tuple[float, float, float], ...] = ()
     """Known obstacles of the site's map as discs x, y, radius: world ENU, metres."""
+    locations: Mapping[str, tuple[float, float]] = {}
+    """The crew's named places: world ENU, metres."""
     geofence: bool = True
 
 
@@ -118,3 +121,27 @@ class StopLatch:
     def clear(self) -> None:
         with self.lock:
             self._latched = False
+
+
+class Permit:
+    """Leave to send motion-causing messages, held by one run of a skill until it is revoked.
+
+    A `safe` permit also works while the stop is latched: braking, and whatever else makes the robot safe.
+    """
+
+    def __init__(self, *, safe: bool = False) -> None:
+        self.safe = safe
+        self._revoked: AdapterError | None = None
+
+    def revoke(self, error: AdapterError) -> None:
+        """End the permit for good; the first reason stays."""
+        self._revoked = self._revoked or error
+
+    @property
+    def revoked(self) -> bool:
+        return self._revoked is not None
+
+    def check(self) -> None:
+        """Raise the reason if the permit was revoked."""
+        if self._revoked is not None:
+            raise self._revoked

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 
 SCENES = {
     "air_ground": ("crew.sim.world:World", "crew.sim.map:survey"),
+    "apartment": ("crew.sim.apartment.world:Apartment", "crew.sim.apartment.site:survey"),
 }
 """Each scene's world, and the surveyor of its maps."""
 

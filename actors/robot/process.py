@@ -59,6 +59,7 @@ def make_adapter(robot: RobotSpec, rules: Rules, connection: str, clock: Clock) 
         area=(crew.area.x_min, crew.area.x_max, crew.area.y_min, crew.area.y_max),
         origin=crew.origin,
         obstacles=crew.obstacles,
+        locations={place.name: (place.x, place.y) for place in crew.locations},
     )
     try:
         adapter: Adapter = entry.load()(config, clock)

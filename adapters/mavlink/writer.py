@@ -8,6 +8,7 @@ from typing import Any
 
 from pymavlink.dialects.v20 import common as mavlink
 
+from crew.adapter import Permit as Permit
 from crew.adapter import StopLatch
 from crew.errors import AdapterError, Latched
 
@@ -17,30 +18,6 @@ GROUND_COMPONENT = mavlink.MAV_COMP_ID_MISSIONPLANNER
 HARMLESS_MESSAGES = frozenset({mavlink.MAVLINK_MSG_ID_HEARTBEAT, mavlink.MAVLINK_MSG_ID_PARAM_REQUEST_READ})
 HARMLESS_COMMANDS = frozenset({mavlink.MAV_CMD_SET_MESSAGE_INTERVAL, mavlink.MAV_CMD_REQUEST_MESSAGE})
 COMMAND_MESSAGES = frozenset({mavlink.MAVLINK_MSG_ID_COMMAND_LONG, mavlink.MAVLINK_MSG_ID_COMMAND_INT})
-
-
-class Permit:
-    """Leave to send motion-causing messages, held by one run of a skill until it is revoked.
-
-    A `safe` permit also works while the stop is latched: braking, and the robot's own landing.
-    """
-
-    def __init__(self, *, safe: bool = False) -> None:
-        self.safe = safe
-        self._revoked: AdapterError | None = None
-
-    def revoke(self, error: AdapterError) -> None:
-        """End the permit for good; the first reason stays."""
-        self._revoked = self._revoked or error
-
-    @property
-    def revoked(self) -> bool:
-        return self._revoked is not None
-
-    def check(self) -> None:
-        """Raise the reason if the permit was revoked."""
-        if self._revoked is not None:
-            raise self._revoked
 
 
 class Writer:

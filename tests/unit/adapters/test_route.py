@@ -8,8 +8,8 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from crew.adapters.mavlink.occupancy import Disc, Ground, Spot, distance_to_segment_m
-from crew.adapters.mavlink.route import plan_route
+from crew.adapters.ground.occupancy import Disc, Ground, Spot, distance_to_segment_m
+from crew.adapters.ground.route import plan_route
 from crew.errors import AdapterError
 
 AREA = (-6.0, 10.0, -6.0, 10.0)

@@ -3,7 +3,7 @@
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from crew.adapters.mavlink.occupancy import distance_to_segment_m
+from crew.adapters.ground.occupancy import distance_to_segment_m
 from crew.adapters.mavlink.sweep import Sweep, Zone, path_length_m, plan_sweep
 
 AREA = Zone(-6.0, 10.0, -6.0, 10.0)

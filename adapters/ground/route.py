@@ -4,7 +4,7 @@ import heapq
 import math
 from collections.abc import Iterator
 
-from crew.adapters.mavlink.occupancy import Cell, Grid, Ground, Spot
+from crew.adapters.ground.occupancy import Cell, Grid, Ground, Spot
 from crew.errors import AdapterError
 
 RING_M = 0.3

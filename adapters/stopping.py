@@ -26,7 +26,7 @@ class StopRepeater:
         """Begin, or begin again; returns at once."""
         self.finish()
         self._over = over = threading.Event()
-        self._thread = threading.Thread(target=self._repeat, args=(over,), name="mavlink-stop", daemon=True)
+        self._thread = threading.Thread(target=self._repeat, args=(over,), name="stop", daemon=True)
         self._thread.start()
 
     def finish(self) -> None:

@@ -1,0 +1,153 @@
+"""The unitree adapters against the simulated apartment in lockstep: time moves only when no datagram is on its way."""
+
+import asyncio
+import contextlib
+import math
+from collections.abc import AsyncIterator, Awaitable, Mapping
+from typing import Any, TypeVar
+
+import msgspec
+
+from crew.adapter import AdapterConfig, Place
+from crew.adapters.unitree.adapter import UnitreeAdapter
+from crew.clock import SimClock
+from crew.contracts.kinds.humanoid import HUMANOID
+from crew.contracts.kinds.quadruped import QUADRUPED
+from crew.contracts.site import Crew
+from crew.library import load_rules
+from crew.sim.apartment.world import Apartment
+from crew.sim.config import WorldConfig
+from tests.integration.adapters.lockstep import free_port
+
+T = TypeVar("T")
+
+SLICE_NS = 50_000_000
+KINDS = {"humanoid": HUMANOID, "quadruped": QUADRUPED}
+
+
+class Stage:
+    """One apartment, one clock, an adapter for each robot of the shipped crew."""
+
+    def __init__(self, *, map_: str = "far", seed: int = 0, faults: tuple[str, ...] = (), noise: bool = True) -> None:
+        self.crew: Crew = load_rules("humanoid_quadruped").crew
+        ports = {robot.name: free_port() for robot in self.crew.robots}
+        links = {name: f"udp:127.0.0.1:{port}" for name, port in ports.items()}
+        self.world = Apartment(
+            WorldConfig(scene="apartment", map=map_, seed=seed, faults=faults, noise=noise, links=links)
+        )
+        self.clock = SimClock()
+        area = self.crew.area
+        self.adapters = {
+            robot.name: UnitreeAdapter(
+                AdapterConfig(
+                    robot=robot.name,
+                    kind=robot.kind,
+                    connection=f"udpin:127.0.0.1:{ports[robot.name]}",
+                    options=dict(robot.options),
+                    area=(area.x_min, area.x_max, area.y_min, area.y_max),
+                    origin=(0.0, 0.0, 0.0),
+                    obstacles=self.world.site.obstacles,
+                    locations={place.name: (place.x, place.y) for place in self.crew.locations},
+                ),
+                self.clock,
+            )
+            for robot in self.crew.robots
+        }
+        self.connected: list[str] = []
+
+    @property
+    def g1(self) -> UnitreeAdapter:
+        return self.adapters["g1"]
+
+    @property
+    def go2(self) -> UnitreeAdapter:
+        return self.adapters["go2"]
+
+    async def do(self, robot: str, skill: str, *, limit_s: float = 200.0, **args: Any) -> None:
+        """Carry out a skill, as a dispatch would."""
+        kind = KINDS[next(r.kind for r in self.crew.robots if r.name == robot)]
+        declared = kind.skill(skill)
+        assert declared is not None
+        given = msgspec.convert(args, declared.args)
+        await self.run(self.adapters[robot].execute(skill, given, self.places(args)), limit_s)
+
+    def places(self, args: Mapping[str, Any]) -> dict[str, Place]:
+        """A navigation's place: where a location is, or where a person was last seen."""
+        name = args.get("location")
+        if name in self.adapters["g1"].values():
+            point = self.adapters["g1"].values()[name].position
+            assert point is not None
+            return {"location": Place(point.x, point.y)}
+        place = self.crew.location(str(name))
+        return {} if place is None else {"location": Place(place.x, place.y)}
+
+    async def run(self, work: Awaitable[T], limit_s: float = 200.0) -> T:
+        """Advance the world until `work` is done."""
+        task = asyncio.ensure_future(work)
+        end_ns = self.clock.now_ns() + round(limit_s * 1e9)
+        try:
+            await self._turns()
+            while not task.done():
+                assert self.clock.now_ns() < end_ns, "simulated time ran out"
+                await self.step()
+        finally:
+            task.cancel()
+            await asyncio.gather(task, return_exceptions=True)
+        return task.result()
+
+    async def advance(self, seconds: float) -> None:
+        end_ns = self.clock.now_ns() + round(seconds * 1e9)
+        while self.clock.now_ns() < end_ns:
+            await self.step()
+
+    async def step(self) -> None:
+        self.world.advance(self.world.time_ns + SLICE_NS)
+        await self._arrived()
+        self.clock.advance(self.world.time_ns)
+        await self._turns()
+        self.world.poll()
+
+    async def _arrived(self) -> None:
+        for _ in range(10_000):
+            sent = self.world.sent()
+            heard = all(self.adapters[name].link_counts()[1] >= sent[name] for name in self.connected)
+            if heard and not self.clock.is_busy:
+                return
+            await asyncio.sleep(0)
+        raise AssertionError(f"datagrams lost: {self.world.sent()}")
+
+    async def _turns(self) -> None:
+        for _ in range(8):
+            await asyncio.sleep(0)
+
+    # The truth.
+
+    def thing(self, name: str) -> tuple[float, float, float]:
+        return self.world.scene_truth().targets[name]
+
+    def dog(self) -> tuple[float, float, float, float]:
+        return self.world.scene_truth().poses["go2"]
+
+    def away_m(self, name: str, x: float, y: float) -> float:
+        """How far a thing truly is from a point, horizontally."""
+        return math.dist(self.thing(name)[:2], (x, y))
+
+    async def close(self) -> None:
+        for adapter in self.adapters.values():
+            await adapter.close()
+        self.world.close()
+
+
+@contextlib.asynccontextmanager
+async def stage(*robots: str, **how: Any) -> AsyncIterator[Stage]:
+    """An apartment with the named robots' adapters connected; both if none is named."""
+    found = Stage(**how)
+    names = robots or tuple(found.adapters)
+    try:
+        connecting = [asyncio.ensure_future(found.adapters[name].connect()) for name in names]
+        await asyncio.sleep(0)
+        found.connected.extend(names)
+        await found.run(asyncio.gather(*connecting))
+        yield found
+    finally:
+        await found.close()
