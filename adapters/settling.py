@@ -1,4 +1,4 @@
-"""Holds simulated time while a batch of received messages is handled, and tells once their tasks have had their turns."""
+"""Holds simulated time while received messages are handled, and tells once their tasks have had their turns."""
 
 import asyncio
 from collections.abc import Callable

@@ -17,6 +17,8 @@ from crew.messages import MissionEvent, PlannedStep
 from crew.progress import MissionProgress
 from crew.wire import encode_json
 
+MOVED_M = 0.5
+"""A value that is observed all the time is told again once it has moved this far."""
 _OUTCOMES: Mapping[StepPhase, str] = {
     StepPhase.PENDING: "pending",
     StepPhase.DECIDING: "pending",
@@ -39,6 +41,7 @@ class Announcer:
         self._numbers: dict[str, int] = {}
         self._events: dict[str, int] = {}
         self._began: dict[str, int] = {}
+        self._told: dict[tuple[str, str], ValueReading] = {}
 
     def after(self, old: MissionState, new: MissionState, event: ev.AnyEvent) -> None:
         """Say what an event has changed."""
@@ -48,7 +51,12 @@ class Announcer:
             self._say_phase(new)
 
     def value(self, mission: MissionState, reading: ValueReading, source: str) -> None:
-        """A run-time value was published while the mission ran."""
+        """A run-time value was published meanwhile; one that is observed all the time is told only if it changed."""
+        declared = self._rules.publication(source, reading.name)
+        last = self._told.get((mission.id, reading.name))
+        if declared is not None and not declared.by and last is not None and not _differs(last, reading):
+            return
+        self._told[mission.id, reading.name] = reading
         self._put(mission, "value", describe_value(reading, source), robot=source)
 
     def waiting(self, mission: MissionState, holders: list[str]) -> None:
@@ -207,6 +215,14 @@ class Announcer:
         self._bus.put(self._keys.mission_event(mission.id), encode_json(event), qos=Qos.EVENT)
 
 
+def _differs(last: ValueReading, now: ValueReading) -> bool:
+    """Whether a person would want to hear of a value again: another status, in reach or not, or somewhere else."""
+    if last.position is None or now.position is None:
+        return last.status != now.status
+    moved_m = math.dist((last.position.x, last.position.y), (now.position.x, now.position.y))
+    return last.near != now.near or moved_m > MOVED_M
+
+
 def describe_value(reading: ValueReading, source: str) -> str:
     """A run-time value in a sentence."""
     position = reading.position
@@ -216,7 +232,9 @@ def describe_value(reading: ValueReading, source: str) -> str:
     if not (math.isfinite(position.x) and math.isfinite(position.y)):
         return f"{source} reports {reading.name} at ({position.x}, {position.y}): not a place"
     sigma = f" +- {reading.sigma_m:.2f} m" if reading.sigma_m is not None else ""
-    return f"{source} reports {reading.name} at ({position.x:.2f}, {position.y:.2f}){sigma} from {reading.looks} looks"
+    near = "" if reading.near is None else ", in reach" if reading.near else ", out of reach"
+    looks = f" from {reading.looks} looks" if reading.looks else ""
+    return f"{source} reports {reading.name} at ({position.x:.2f}, {position.y:.2f}){sigma}{looks}{near}"
 
 
 def _code(mission: MissionState) -> str | None:

@@ -13,9 +13,9 @@ from crew.adapters.mavlink.quadcopter import QuadcopterSkills
 from crew.adapters.mavlink.rover import RoverSkills
 from crew.adapters.mavlink.run import HANDS_OFF, Run
 from crew.adapters.mavlink.skills import Skills
-from crew.adapters.stopping import StopRepeater
 from crew.adapters.mavlink.vehicle import POLL_S, Vehicle
 from crew.adapters.mavlink.writer import Permit
+from crew.adapters.stopping import StopRepeater
 from crew.clock import Clock
 from crew.contracts.skill import SkillArgs
 from crew.contracts.snapshot import ValueReading

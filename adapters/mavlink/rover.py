@@ -4,14 +4,14 @@ import math
 from collections.abc import Mapping, Sequence
 
 from crew.adapter import Place, Reading
+from crew.adapters.ground.occupancy import Disc, Ground, Spot
+from crew.adapters.ground.route import plan_route
 from crew.adapters.mavlink.braking import brake
 from crew.adapters.mavlink.fence import check_inside
 from crew.adapters.mavlink.flavours.flavour import Flavour
 from crew.adapters.mavlink.fluents import common_fluents
-from crew.adapters.ground.occupancy import Disc, Ground, Spot
 from crew.adapters.mavlink.options import RoverOptions
 from crew.adapters.mavlink.preflight import check_failsafes
-from crew.adapters.ground.route import plan_route
 from crew.adapters.mavlink.run import Run
 from crew.adapters.mavlink.vehicle import Vehicle
 from crew.adapters.mavlink.watch import Watch

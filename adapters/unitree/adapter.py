@@ -45,7 +45,7 @@ class UnitreeAdapter:
         )
 
     async def connect(self) -> None:
-        """Find the robot, its telemetry and its services; raise AdapterError naming what is missing. Again: reconnect."""
+        """Find the robot, its telemetry, its services; raise AdapterError naming what is missing. Again: reconnect."""
         await self._disconnect()
         self._skills = self._new_skills()
         try:
@@ -151,9 +151,7 @@ class UnitreeAdapter:
     def _new_skills(self) -> Skills:
         kind: type[WalkerSkills] | type[ManipulatorSkills]
         kind = WalkerSkills if isinstance(self._options, WalkerOptions) else ManipulatorSkills
-        robot = Robot(
-            self._config, self._options, self._clock, self._latch, self._counts, self._settling, kind.needs
-        )
+        robot = Robot(self._config, self._options, self._clock, self._latch, self._counts, self._settling, kind.needs)
         if isinstance(self._options, WalkerOptions):
             return WalkerSkills(robot, self._options)
         assert isinstance(self._options, ManipulatorOptions)
@@ -207,7 +205,7 @@ class UnitreeAdapter:
     # Stopping after a failure.
 
     def _abandon(self, run: Run, error: AdapterError) -> None:
-        """Stop what was set in motion, at once, and see to it that it stops; whoever revoked the permit does already."""
+        """Stop what was set in motion, and see to it that it stops; whoever revoked the permit does so already."""
         if run.permit.revoked:
             return
         self._end(run.permit, error)

@@ -1,4 +1,4 @@
-"""What the gripper feels, and what it is told: openings in metres from its middle, forces in newtons. Pure but for it."""
+"""What the gripper feels, and what it is told: openings in metres from its middle, forces in newtons. Pure."""
 
 from crew.adapters.unitree.telemetry import Telemetry
 

@@ -29,7 +29,7 @@ Joints = tuple[float, ...]
 
 
 class Arm:
-    """Kinematics of the waist and one arm. `step` moves joints a little towards a goal; `reach` tells if it gets there."""
+    """Kinematics of the waist and one arm. `step` moves joints a little towards a goal."""
 
     def __init__(self) -> None:
         self._model = mujoco.MjModel.from_xml_path(str(MODEL))

@@ -1,6 +1,6 @@
 """The humanoid's skills: joint targets on rt/arm_sdk, found by inverse kinematics; hand commands on their own topic.
 
-A grasp is what the fingers feel, a handover what the arm feels being pulled. World ENU, metres, unless a name says base.
+A grasp is what the fingers feel, a handover what the arm feels being pulled. World ENU, metres.
 """
 
 import math
@@ -177,7 +177,7 @@ class ManipulatorSkills:
         person = self._see_person()
         self._require_reach(self._offer_pose(person), f"the hand of {person.name}")
         await self._pick(run, name)
-        person = self._see_person()
+        person = self._require_person(person)
         await self._carry(run, name, _raised(self._offer_pose(person), OFFER_FROM_M), person)
         await self._settle(run)
         unpulled = self._torques()
@@ -333,13 +333,15 @@ class ManipulatorSkills:
             raise AdapterError(f"{self._name}: nobody holds out a hand within reach", code="nobody_near")
         return near
 
-    def _require_person(self, before: Seen) -> None:
+    def _require_person(self, before: Seen) -> Seen:
+        """The person as seen now, who must not have gone away."""
         now = self.robot.telemetry.people.get(before.name)
         if now is None or math.dist(before.spot, now.value.spot) > SWAY_M:
             raise AdapterError(
                 f"{self._name}: {before.name} has walked away while the object was handed over; it stays in the hand",
                 code="target_moved",
             )
+        return now.value
 
     def _require_held(self, name: str, when: str) -> None:
         """The fingers feel it, and it is not seen anywhere else."""

@@ -24,6 +24,7 @@ class Sights:
         self._cos, self._sin = math.cos(self.heading_rad), math.sin(self.heading_rad)
         self._reach_m = reach_m
         self._told: dict[str, ValueReading] = {}
+        self._renewed_ns: dict[str, int] = {}
 
     def to_base(self, x: float, y: float, z: float) -> tuple[float, float, float]:
         """A point of the world in the robot's frame."""
@@ -67,9 +68,10 @@ class Sights:
         told = self._robot.telemetry
         status = "ok" if told.age_s(sample) <= OUT_OF_SIGHT_S else "absent"
         now_ns, last = self._robot.clock.now_ns(), self._told.get(name)
-        unchanged = last is not None and last.status == status and last.near == near
-        if unchanged and last is not None and now_ns - last.stamp_ns < RENEW_S * 1e9:
+        unchanged = last is not None and last.status == status and last.near == (near if status == "ok" else None)
+        if unchanged and now_ns - self._renewed_ns[name] < RENEW_S * 1e9:
             return
+        self._renewed_ns[name] = now_ns
         seen = sample.value
         self._told[name] = ValueReading(
             name=name,

@@ -1,4 +1,4 @@
-"""What both back ends offer: topics out, topics in, and counts. A topic's body has the SDK's own fields, as mappings."""
+"""What both back ends offer: topics out, topics in, and counts. A body has the SDK's own fields, as mappings."""
 
 from collections.abc import Callable, Mapping
 from typing import Any, Protocol

@@ -9,7 +9,7 @@ from collections.abc import Mapping
 from crew.adapter import AdapterConfig, Place, Reading
 from crew.adapters.ground.occupancy import Disc, Ground, Spot
 from crew.adapters.ground.route import plan_route
-from crew.adapters.unitree.options import Berth, WalkerOptions
+from crew.adapters.unitree.options import WalkerOptions
 from crew.adapters.unitree.robot import FALLEN_RAD, Robot
 from crew.adapters.unitree.run import Run
 from crew.adapters.unitree.steering import Velocity, along, sideways, wrap_rad
@@ -40,6 +40,8 @@ BLOCKED_M = 0.6
 BLOCKED_S = 3.0
 BLOCK_RADIUS_M = 0.3
 DETOURS = 3
+LOST_S = 0.8
+"""A load that the tray's sensor has not felt for so long has fallen out."""
 BODY_BEHIND_M, BODY_RADIUS_M = 0.6, 0.2
 """Where a person stands behind the hand that they hold out."""
 
@@ -120,7 +122,9 @@ class WalkerSkills:
         still_s = 0.0
         while still_s < STILL_S:
             if run.since_s(start_ns) > STOPS_S:
-                raise AdapterError(f"{self._config.robot}: still moving {STOPS_S:g} s after StopMove", code="still_moving")
+                raise AdapterError(
+                    f"{self._config.robot}: still moving {STOPS_S:g} s after StopMove", code="still_moving"
+                )
             self.send_stop()
             before_ns = self.robot.clock.now_ns()
             await run.tick()
@@ -195,7 +199,7 @@ class WalkerSkills:
 
     async def _follow(self, run: Run, route: list[Spot], name: str, pinned: Seen | None) -> Disc | None:
         """Walk a route to its end; None there, or the disc of what was found to block it."""
-        gait = _Progress(run)
+        gait, load = _Progress(run), _Load(run)
         for number, spot in enumerate(route):
             last = number == len(route) - 1
             near_m = self._options.arrive_m / 2 if last else PASS_M
@@ -205,6 +209,7 @@ class WalkerSkills:
                 self._move(run, along(self._here(), self._state().yaw_rad, spot, self._cruise_mps(), left_m))
                 await run.tick()
                 self._check_moved_away(name, pinned)
+                load.check(self._here())
                 gait.note(math.dist(self._here(), spot) + self._turn_left(spot))
                 if gait.stuck_s > BLOCKED_S and (block := self._block_ahead(spot)) is not None:
                     return block
@@ -303,6 +308,30 @@ class WalkerSkills:
             f"({spot[0]:.1f}, {spot[1]:.1f}): {why}",
             code="no_progress",
         )
+
+
+class _Load:
+    """What lies in the tray when a walk begins, and whether it stays there. A hop over a doorstep is no loss."""
+
+    def __init__(self, run: Run) -> None:
+        self._run = run
+        self._carried = self._now()
+        self._seen_ns = run.robot.clock.now_ns()
+
+    def check(self, here: Spot) -> None:
+        """Raise AdapterError `load_lost`."""
+        if self._now() == self._carried:
+            self._seen_ns = self._run.robot.clock.now_ns()
+        elif self._carried and self._run.since_s(self._seen_ns) > LOST_S:
+            raise AdapterError(
+                f"{self._run.robot.config.robot}: {self._carried} is no longer in the tray; "
+                f"it was lost on the way to here, ({here[0]:.1f}, {here[1]:.1f})",
+                code="load_lost",
+            )
+
+    def _now(self) -> str:
+        tray = self._run.robot.telemetry.tray
+        return "" if tray is None else tray.value.object
 
 
 class _Progress:

@@ -40,6 +40,7 @@ def _build(model: CrewModel, source: str) -> Crew:
         contracts=tuple(model.contracts),
         obstacles=tuple((x, y, radius) for x, y, radius in model.obstacles),
         sim=_sim(model),
+        demo=model.demo,
         source=source,
     )
 

@@ -106,3 +106,4 @@ class CrewModel(FileModel):
         default_factory=list, description="Known obstacles as discs x, y, radius: world ENU, metres"
     )
     sim: SimModel | None = None
+    demo: Annotated[str, Field(max_length=500, description="The request that `crew demo` makes of this crew")] = ""

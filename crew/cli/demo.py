@@ -1,6 +1,5 @@
 """`crew demo`: bring a crew up, publish one request, wait for its end, bring the crew down."""
 
-import math
 import time
 from collections.abc import Mapping
 
@@ -8,14 +7,17 @@ import msgspec
 
 from crew.bus.port import Bus
 from crew.cli.follow import follow_request
+from crew.cli.goal import goal_error_m, true_places
 from crew.cli.output import coloured, say, say_event, say_json
 from crew.cli.progress import proof_progress
 from crew.cli.session import EXIT_CODES, home, run
+from crew.errors import UsageError
 from crew.keys import Keys
 from crew.launch.live import UNSECURED, LiveCrew, live_crew
 from crew.launch.options import LaunchOptions
+from crew.library import load_rules
 from crew.mailbox import KeepLatest, Letter, letters
-from crew.messages import MissionEvent, PlannedStep, SimTruth
+from crew.messages import MissionEvent, SimTruth
 from crew.verify import REPORT
 
 
@@ -45,11 +47,25 @@ class DemoResult(msgspec.Struct, frozen=True, kw_only=True):
     wall_s: float
     sim_s: float
     message: str
+    objects: Mapping[str, tuple[float, float, float]]
+    """Where each object truly was at the end: x, y, z, world ENU, metres."""
 
 
-def run_demo(options: LaunchOptions, request: str, as_json: bool) -> int:
-    """Exit code by the mission's outcome; a question counts as rejected, for there is nobody to answer it."""
-    return run(_demo(options, request, as_json))
+def run_demo(options: LaunchOptions, request: str | None, as_json: bool) -> int:
+    """Exit code by the mission's outcome; a question counts as rejected, for there is nobody to answer it.
+
+    Without a request the crew file's own is made. Raises UsageError if it has none.
+    """
+    return run(_demo(options, _request(options, request), as_json))
+
+
+def _request(options: LaunchOptions, given: str | None) -> str:
+    if given is not None:
+        return given
+    crew = load_rules(options.crew, contracts=options.contracts).crew
+    if not crew.demo:
+        raise UsageError(f"{crew.source} has no demo: line; say what to ask for with --request")
+    return crew.demo
 
 
 async def _demo(options: LaunchOptions, request: str, as_json: bool) -> int:
@@ -95,32 +111,14 @@ def _result(last: MissionEvent, truth: SimTruth | None, crew: LiveCrew, wall_s: 
         question=asked,
         contract=last.contract,
         steps=tuple(DemoStep(robot=s.robot, skill=s.skill, args=s.args, outcome=s.outcome, code=s.code) for s in steps),
-        goal_error_m=None if truth is None else goal_error_m(steps, truth),
+        goal_error_m=None if truth is None else goal_error_m(steps, truth, crew.rules),
         poses={} if truth is None else truth.poses,
+        objects={} if truth is None else true_places(truth, crew.rules),
         run=str(crew.run_folder),
         wall_s=round(wall_s, 2),
         sim_s=round(last.at_s, 2),
         message=last.text,
     )
-
-
-def goal_error_m(steps: tuple[PlannedStep, ...], truth: SimTruth) -> float | None:
-    """How far the robot of the last destination truly is from where it was sent: metres, horizontal."""
-    for step in reversed(steps):
-        pose = truth.poses.get(step.robot)
-        goal = _goal(step, truth)
-        if pose is not None and goal is not None:
-            return round(math.hypot(pose[0] - goal[0], pose[1] - goal[1]), 3)
-    return None
-
-
-def _goal(step: PlannedStep, truth: SimTruth) -> tuple[float, float] | None:
-    target = step.args.get("target")
-    if isinstance(target, str) and target in truth.targets:
-        x, y, _ = truth.targets[target]
-        return x, y
-    x_arg, y_arg = step.args.get("x"), step.args.get("y")
-    return (x_arg, y_arg) if isinstance(x_arg, float) and isinstance(y_arg, float) else None
 
 
 def _introduce(crew: LiveCrew, request: str, ready_s: float) -> None:
@@ -139,6 +137,8 @@ def _conclude(result: DemoResult) -> None:
         say(f"a person would be asked: {result.question}")
     if result.goal_error_m is not None:
         say(f"distance to the true goal: {result.goal_error_m:.2f} m")
+    for name, (x, y, z) in result.objects.items():
+        say(f"{name} is truly at ({x:.2f}, {y:.2f}, {z:.2f})")
     colour = "green" if result.outcome == "completed" else "red"
     say(coloured(f"{result.outcome}{f' ({result.code})' if result.code else ''}", colour))
     say(f"{result.sim_s:.1f} s of mission time in {result.wall_s:.1f} s; the run is in {result.run}")

@@ -43,7 +43,6 @@ Fault = Annotated[list[str] | None, typer.Option("--fault", help="Inject a fault
 Runs = Annotated[Path, typer.Option(help="Folder that runs are written to.")]
 Single = Annotated[bool, typer.Option("--single-process", help="Everything in one process, for a debugger.")]
 Record = Annotated[bool, typer.Option("--record/--no-record", help="Record the run as a page for crew replay.")]
-REQUEST = "Search the area and send the rover to the victim"
 
 
 @app.command()
@@ -78,7 +77,9 @@ def demo(
     crew: CrewName = "air_ground",
     map_: Map = None,
     seed: Seed = None,
-    request: Annotated[str, typer.Option(help="What to ask of the crew.")] = REQUEST,
+    request: Annotated[
+        str | None, typer.Option(help="What to ask of the crew; if left out, its crew file says.")
+    ] = None,
     speed: Speed = "max",
     planner: Planner = "embedded",
     script: Script = "",

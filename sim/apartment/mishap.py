@@ -1,5 +1,6 @@
 """Mishaps that a fault brings about, physically, when their moment comes. Must not tell anybody."""
 
+import math
 from collections.abc import Callable
 from typing import Any
 
@@ -24,6 +25,7 @@ NAMES = (
     "sdk_not_implemented",
 )
 LIFTED_M = 0.06
+BESIDE_M = 1.0
 WALKED_S = 3.0
 SHOVE_NS = 75.0
 SLIPPERY = (0.02, 0.0001, 0.0001)
@@ -59,7 +61,7 @@ class Mishaps:
         self._go2.link.cut = on("link_loss") and (walked or self._go2.link.cut)
         self._once("tray_slip", walked and bool(loaded), lambda: self._throw(loaded))
         self._once("go2_falls", walked, lambda: self._go2.shove(SHOVE_NS, 1.57, 0.1))
-        self._once("requester_leaves", self._lifted(), self._requester_leaves)
+        self._once("requester_leaves", (walked and bool(loaded)) or self._offered(), self._requester_leaves)
         self._services(now_ns)
 
     def _once(self, fault: str, now: bool, act: Callable[[], None]) -> None:
@@ -77,8 +79,13 @@ class Mishaps:
             self._model.geom_friction[pad] = SLIPPERY if slippery else self._grippy
 
     def _lifted(self) -> bool:
-        """Whether something has left the table and has not yet been let go of."""
-        return any(abs(self._height_m(name) - before) > LIFTED_M for name, before in self._heights.items())
+        """Whether something was lifted off its table."""
+        return any(self._height_m(name) - before > LIFTED_M for name, before in self._heights.items())
+
+    def _offered(self) -> bool:
+        """Whether something was lifted while the person stands beside the table."""
+        g1, hand = self._site.robots["g1"], self._requester.position
+        return self._lifted() and math.dist((g1.x_m, g1.y_m), hand[:2]) < BESIDE_M
 
     def _block(self, blocked: bool) -> None:
         for doorway in self._site.doorways:

@@ -73,12 +73,12 @@ class Stage:
 
     def places(self, args: Mapping[str, Any]) -> dict[str, Place]:
         """A navigation's place: where a location is, or where a person was last seen."""
-        name = args.get("location")
+        name = str(args.get("location"))
         if name in self.adapters["g1"].values():
             point = self.adapters["g1"].values()[name].position
             assert point is not None
             return {"location": Place(point.x, point.y)}
-        place = self.crew.location(str(name))
+        place = self.crew.location(name)
         return {} if place is None else {"location": Place(place.x, place.y)}
 
     async def run(self, work: Awaitable[T], limit_s: float = 200.0) -> T:

@@ -1,0 +1,64 @@
+"""`crew demo humanoid_quadruped`: one request, and where the person stands decides who brings the cube, and how."""
+
+import math
+
+import pytest
+
+from tests.integration.crew.harness import Desk, intents
+
+DELIVERED_M = 0.3
+CARRY = ["go2.navigate", "g1.pick_place", "go2.navigate"]
+
+
+@pytest.fixture(scope="module")
+def desk(tmp_path_factory: pytest.TempPathFactory) -> Desk:
+    return Desk(tmp_path_factory.mktemp("humanoid"))
+
+
+def test_a_person_beside_the_table_is_handed_the_cube(desk: Desk) -> None:
+    demo = desk.demo("humanoid_quadruped", "--map", "near")
+    assert (demo.code, demo.result["outcome"], demo.result["contract"]) == (0, "completed", "handover"), demo
+    assert demo.outcomes() == {"g1.pick_handover": "succeeded"}
+    assert intents(demo.run) == ["g1.pick_handover"]
+    assert demo.result["goal_error_m"] < 0.1
+    assert demo.result["objects"]["red_cube"][2] > 0.8
+
+
+def test_a_person_in_another_room_is_brought_the_same_cube(desk: Desk) -> None:
+    demo = desk.demo("humanoid_quadruped", "--map", "far", "--seed", "1")
+    assert (demo.code, demo.result["outcome"], demo.result["contract"]) == (0, "completed", "carry"), demo
+    assert intents(demo.run) == CARRY
+    assert demo.result["goal_error_m"] < DELIVERED_M
+    assert demo.result["objects"]["red_cube"][2] > 0.5, "in the tray"
+    assert desk.crew("verify", str(demo.run)).returncode == 0
+
+
+def test_a_load_lost_on_the_way_halts_and_its_true_place_is_told(desk: Desk) -> None:
+    demo = desk.demo("humanoid_quadruped", "--fault", "tray_slip")
+    assert (demo.code, demo.result["outcome"]) == (4, "halted")
+    assert demo.result["steps"][-1]["outcome"] == "failed"
+    assert "no longer in the tray" in demo.result["message"]
+    x, y, z = demo.result["objects"]["red_cube"]
+    assert z < 0.1, "on the floor"
+    assert demo.result["goal_error_m"] > 2.0
+    assert math.dist((x, y), (0.08, -0.47)) < 3.0, "on the way from where it was loaded"
+
+
+@pytest.mark.parametrize(
+    ("request_", "fault", "code"),
+    [
+        ("bring me the piano", "", "not_requested"),
+        ("carry the red cube to the rooftop helipad", "", "not_requested"),
+        ("do not take the red cube to room_b", "", "not_requested"),
+        ("bring me the red cube", "g1_unavailable", "robot_unavailable"),
+        ("bring me the red cube", "lease_held", "robot_unavailable"),
+    ],
+)
+def test_what_must_not_be_done_moves_nothing(desk: Desk, request_: str, fault: str, code: str) -> None:
+    more = ("--fault", fault) if fault else ()
+    demo = desk.demo(
+        "humanoid_quadruped", "--map", "near" if fault == "g1_unavailable" else "far", "--request", request_, *more
+    )
+    assert (demo.code, demo.result["outcome"]) == (3, "rejected"), demo
+    assert demo.result["code"] == code
+    assert intents(demo.run) == []
