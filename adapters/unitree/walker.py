@@ -24,6 +24,7 @@ BALANCE_STAND, STOP_MOVE, STAND_UP, MOVE = 1002, 1003, 1004, 1008
 BALANCED, WALKING = 1, 3
 UPRIGHT_M = 0.24
 STANDS_UP_S = 6.0
+ASK_AGAIN_S = 0.5
 MOVING_MPS = 0.1
 STILL_MPS, STILL_RPS = 0.06, 0.15
 STILL_S = 0.4
@@ -53,7 +54,7 @@ class WalkerSkills:
         self.robot = robot
         self._options = options
         self._config: AdapterConfig = robot.config
-        self._still_from_ns = 0
+        self._load = _Load()
 
     @staticmethod
     def needs(told: Telemetry) -> dict[str, Sample[object] | None]:
@@ -135,6 +136,7 @@ class WalkerSkills:
         if place is None:
             raise AdapterError(f"{self._config.robot}: the place of {name!r} was not resolved", code="bad_argument")
         self._check_inside(place)
+        self._load = _Load(run)
         await self._get_ready(run)
         await self._leave_berth(run)
         berth = self._options.berths.get(name)
@@ -144,6 +146,7 @@ class WalkerSkills:
             await self._creep(run, self._here(), math.radians(berth.heading_deg))
             await self._creep(run, (place.x, place.y), math.radians(berth.heading_deg))
         await self.stop(run)
+        self._load.check(run)
         self._check_person(name, place)
         self._check_arrived(place)
 
@@ -159,10 +162,12 @@ class WalkerSkills:
         if self._state().position[2] < UPRIGHT_M:
             await run.call(SPORT, STAND_UP, {})
             await run.until(lambda: self._state().position[2] > UPRIGHT_M, STANDS_UP_S, "standing up", "not_standing")
-        if self._state().mode not in (BALANCED, WALKING):
+        start_ns = self.robot.clock.now_ns()
+        while self._state().mode not in (BALANCED, WALKING):
+            if run.since_s(start_ns) > STANDS_UP_S:
+                raise AdapterError(f"{self._config.robot}: it does not unlock its joints", code="not_standing")
             await run.call(SPORT, BALANCE_STAND, {})
-            ready = lambda: self._state().mode in (BALANCED, WALKING)  # noqa: E731
-            await run.until(ready, STANDS_UP_S, "balanced standing", "not_standing")
+            await self.robot.clock.sleep(ASK_AGAIN_S)
 
     async def _leave_berth(self, run: Run) -> None:
         for name, berth in self._options.berths.items():
@@ -199,7 +204,7 @@ class WalkerSkills:
 
     async def _follow(self, run: Run, route: list[Spot], name: str, pinned: Seen | None) -> Disc | None:
         """Walk a route to its end; None there, or the disc of what was found to block it."""
-        gait, load = _Progress(run), _Load(run)
+        gait = _Progress(run)
         for number, spot in enumerate(route):
             last = number == len(route) - 1
             near_m = self._options.arrive_m / 2 if last else PASS_M
@@ -209,7 +214,7 @@ class WalkerSkills:
                 self._move(run, along(self._here(), self._state().yaw_rad, spot, self._cruise_mps(), left_m))
                 await run.tick()
                 self._check_moved_away(name, pinned)
-                load.check(self._here())
+                self._load.check(run)
                 gait.note(math.dist(self._here(), spot) + self._turn_left(spot))
                 if gait.stuck_s > BLOCKED_S and (block := self._block_ahead(spot)) is not None:
                     return block
@@ -226,6 +231,7 @@ class WalkerSkills:
                 return
             self._move(run, sideways(self._here(), self._state().yaw_rad, goal, heading_rad))
             await run.tick()
+            self._load.check(run)
             gait.note(gap_m + turn)
             if gait.stuck_s > self._options.stall_s:
                 if gap_m < self._options.arrive_m and turn < 3.0 * CLOSE_RAD:
@@ -313,25 +319,24 @@ class WalkerSkills:
 class _Load:
     """What lies in the tray when a walk begins, and whether it stays there. A hop over a doorstep is no loss."""
 
-    def __init__(self, run: Run) -> None:
-        self._run = run
-        self._carried = self._now()
-        self._seen_ns = run.robot.clock.now_ns()
+    def __init__(self, run: Run | None = None) -> None:
+        self._carried = "" if run is None else _in_tray(run)
+        self._seen_ns = 0 if run is None else run.robot.clock.now_ns()
 
-    def check(self, here: Spot) -> None:
+    def check(self, run: Run) -> None:
         """Raise AdapterError `load_lost`."""
-        if self._now() == self._carried:
-            self._seen_ns = self._run.robot.clock.now_ns()
-        elif self._carried and self._run.since_s(self._seen_ns) > LOST_S:
+        if _in_tray(run) == self._carried:
+            self._seen_ns = run.robot.clock.now_ns()
+        elif self._carried and run.since_s(self._seen_ns) > LOST_S:
             raise AdapterError(
-                f"{self._run.robot.config.robot}: {self._carried} is no longer in the tray; "
-                f"it was lost on the way to here, ({here[0]:.1f}, {here[1]:.1f})",
+                f"{run.robot.config.robot}: {self._carried} is no longer in the tray; it was lost on the way",
                 code="load_lost",
             )
 
-    def _now(self) -> str:
-        tray = self._run.robot.telemetry.tray
-        return "" if tray is None else tray.value.object
+
+def _in_tray(run: Run) -> str:
+    tray = run.robot.telemetry.tray
+    return "" if tray is None else tray.value.object
 
 
 class _Progress:

@@ -365,7 +365,7 @@ def planner_try(
 
 @planner_app.command("prompt")
 def planner_prompt(
-    text: Annotated[str, typer.Argument(help="The request.")] = REQUEST,
+    text: Annotated[str, typer.Argument(help="The request; if left out, the crew file's own.")] = "",
     crew: Annotated[str, typer.Option("--crew", help="Crew to plan for.")] = "air_ground",
     context: Context = "contracts",
     as_json: AsJson = False,

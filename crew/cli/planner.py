@@ -53,6 +53,7 @@ def run_prompt(text: str, crew: str, context: str, as_json: bool) -> int:
     """Print what a model would be shown, and the digests that travel with its proposal."""
     check_choice(PlannerChoice(context=context), os.environ)
     rules = load_rules(crew)
+    text = text or rules.crew.demo
     prompt = build_prompt(text, Context(context), Library(rules).narrow(text), Facts(), previous=None, feedback=None)
     if as_json:
         digests = {"prompt_digest": prompt.digest, "schema_digest": prompt.schema_digest}

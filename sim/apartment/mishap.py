@@ -27,7 +27,7 @@ NAMES = (
 LIFTED_M = 0.06
 BESIDE_M = 1.0
 WALKED_S = 3.0
-SHOVE_NS = 75.0
+SHOVE_NS, SHOVE_AT_M = 55.0, 0.2
 SLIPPERY = (0.02, 0.0001, 0.0001)
 HOP_MPS = (0.3, 1.3, 1.2)
 """What throws a load out of its tray: ahead, sideways, up."""
@@ -60,7 +60,7 @@ class Mishaps:
         self._block(on("doorway_blocked"))
         self._go2.link.cut = on("link_loss") and (walked or self._go2.link.cut)
         self._once("tray_slip", walked and bool(loaded), lambda: self._throw(loaded))
-        self._once("go2_falls", walked, lambda: self._go2.shove(SHOVE_NS, 1.57, 0.1))
+        self._once("go2_falls", walked, lambda: self._go2.shove(SHOVE_NS, math.pi / 2, SHOVE_AT_M))
         self._once("requester_leaves", (walked and bool(loaded)) or self._offered(), self._requester_leaves)
         self._services(now_ns)
 

@@ -63,13 +63,13 @@ class Stage:
     def go2(self) -> UnitreeAdapter:
         return self.adapters["go2"]
 
-    async def do(self, robot: str, skill: str, *, limit_s: float = 200.0, **args: Any) -> None:
+    async def do(self, robot: str, skill: str, **args: str) -> None:
         """Carry out a skill, as a dispatch would."""
         kind = KINDS[next(r.kind for r in self.crew.robots if r.name == robot)]
         declared = kind.skill(skill)
         assert declared is not None
         given = msgspec.convert(args, declared.args)
-        await self.run(self.adapters[robot].execute(skill, given, self.places(args)), limit_s)
+        await self.run(self.adapters[robot].execute(skill, given, self.places(args)))
 
     def places(self, args: Mapping[str, Any]) -> dict[str, Place]:
         """A navigation's place: where a location is, or where a person was last seen."""

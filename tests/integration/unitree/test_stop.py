@@ -18,9 +18,7 @@ async def started(scene: Stage, robot: str, skill: str, seconds: float, **args: 
     kind = KINDS[next(r.kind for r in scene.crew.robots if r.name == robot)]
     declared = kind.skill(skill)
     assert declared is not None
-    task = asyncio.ensure_future(
-        scene.adapters[robot].execute(skill, declared.args(**args), scene.places(args))  # type: ignore[call-arg]
-    )
+    task = asyncio.ensure_future(scene.adapters[robot].execute(skill, declared.args(**args), scene.places(args)))
     await scene.advance(seconds)
     assert not task.done()
     return task
@@ -31,7 +29,7 @@ async def test_a_halt_while_the_loop_is_blocked_stops_the_walk() -> None:
         walk = await started(scene, "go2", "navigate", 3.0, location="room_b")
         assert scene.go2.fluents()["moving"].value is True
         threading.Thread(target=scene.go2.halt).start()
-        wait(0.05)  # the loop is blocked; the robot's world goes on without it
+        wait(0.05)  # noqa: ASYNC251 - the loop is blocked; the robot's world goes on without it
         for _ in range(30):
             scene.world.advance(scene.world.time_ns + 50_000_000)
             scene.world.poll()
