@@ -88,8 +88,6 @@ class Crew(msgspec.Struct, frozen=True, kw_only=True):
     obstacles: tuple[tuple[float, float, float], ...] = ()
     """Known obstacles as discs x, y, radius: world ENU, metres."""
     sim: SimSpec | None = None
-    demo: str = ""
-    """The request that a demonstration makes of this crew."""
     source: str = ""
 
     def robot(self, name: str) -> RobotSpec | None:

@@ -57,6 +57,21 @@ def load_crew_file(crew: str | Path) -> "Crew":
     return _load_crew(read_text(path), path)
 
 
+def demo_request(crew: str | Path) -> str:
+    """What a demonstration asks of a crew. Raises UsageError if its file does not say, or can't be read."""
+    from crew.contracts.files.crew_file import demo_request as read
+    from crew.contracts.files.source import SourceErrors
+
+    path = crew_path(crew)
+    try:
+        found = read(read_text(path), source=str(path))
+    except SourceErrors as errors:
+        raise UsageError(str(errors)) from errors
+    if not found:
+        raise UsageError(f"{path} has no demo: line; say what to ask for")
+    return found
+
+
 def crew_path(crew: str | Path) -> Path:
     """The file of a crew: text that ends in .yaml or .yml or holds a slash is a path, all else a name."""
     path = Path(crew)

@@ -10,6 +10,15 @@ from crew.contracts.site import Crew, Location, NamedObject, NamedZone, RobotSpe
 
 def load_crew(text: str, *, source: str) -> Crew:
     """The crew that the text holds; `source` names the file in errors. Raises SourceErrors with all mistakes."""
+    return _build(_read(text, source), source)
+
+
+def demo_request(text: str, *, source: str) -> str:
+    """What a demonstration asks of the crew, empty if the file does not say: no rule, and so no part of a `Crew`."""
+    return _read(text, source).demo
+
+
+def _read(text: str, source: str) -> CrewModel:
     root = parse(text, file=source)
     problems = Problems(source, root)
     model = validate(CrewModel, root, problems)
@@ -18,7 +27,7 @@ def load_crew(text: str, *, source: str) -> Crew:
         raise AssertionError("a file that has no shape has problems")
     check(model, problems)
     problems.done()
-    return _build(model, source)
+    return model
 
 
 def _build(model: CrewModel, source: str) -> Crew:
@@ -40,7 +49,6 @@ def _build(model: CrewModel, source: str) -> Crew:
         contracts=tuple(model.contracts),
         obstacles=tuple((x, y, radius) for x, y, radius in model.obstacles),
         sim=_sim(model),
-        demo=model.demo,
         source=source,
     )
 

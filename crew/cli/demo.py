@@ -11,11 +11,10 @@ from crew.cli.goal import goal_error_m, true_places
 from crew.cli.output import coloured, say, say_event, say_json
 from crew.cli.progress import proof_progress
 from crew.cli.session import EXIT_CODES, home, run
-from crew.errors import UsageError
 from crew.keys import Keys
 from crew.launch.live import UNSECURED, LiveCrew, live_crew
 from crew.launch.options import LaunchOptions
-from crew.library import load_rules
+from crew.library import demo_request
 from crew.mailbox import KeepLatest, Letter, letters
 from crew.messages import MissionEvent, SimTruth
 from crew.verify import REPORT
@@ -56,16 +55,7 @@ def run_demo(options: LaunchOptions, request: str | None, as_json: bool) -> int:
 
     Without a request the crew file's own is made. Raises UsageError if it has none.
     """
-    return run(_demo(options, _request(options, request), as_json))
-
-
-def _request(options: LaunchOptions, given: str | None) -> str:
-    if given is not None:
-        return given
-    crew = load_rules(options.crew, contracts=options.contracts).crew
-    if not crew.demo:
-        raise UsageError(f"{crew.source} has no demo: line; say what to ask for with --request")
-    return crew.demo
+    return run(_demo(options, demo_request(options.crew) if request is None else request, as_json))
 
 
 async def _demo(options: LaunchOptions, request: str, as_json: bool) -> int:

@@ -28,7 +28,7 @@ from crew.contracts.site import Rules
 from crew.contracts.skill import NOTHING
 from crew.contracts.snapshot import STATUSES, Point, RobotState, Snapshot, Stamped, StampedValue, ValueReading
 from crew.errors import UsageError, nearest
-from crew.library import load_rules
+from crew.library import demo_request, load_rules
 from crew.messages import PlannedStep, PlannerAsk
 
 NOW_NS = 1_000_000_000
@@ -53,7 +53,7 @@ def run_prompt(text: str, crew: str, context: str, as_json: bool) -> int:
     """Print what a model would be shown, and the digests that travel with its proposal."""
     check_choice(PlannerChoice(context=context), os.environ)
     rules = load_rules(crew)
-    text = text or rules.crew.demo
+    text = text or demo_request(crew)
     prompt = build_prompt(text, Context(context), Library(rules).narrow(text), Facts(), previous=None, feedback=None)
     if as_json:
         digests = {"prompt_digest": prompt.digest, "schema_digest": prompt.schema_digest}

@@ -47,9 +47,9 @@ def test_a_load_lost_on_the_way_halts_and_its_true_place_is_told(desk: Desk) -> 
 @pytest.mark.parametrize(
     ("request_", "fault", "code"),
     [
-        ("bring me the piano", "", "not_requested"),
-        ("carry the red cube to the rooftop helipad", "", "not_requested"),
-        ("do not take the red cube to room_b", "", "not_requested"),
+        ("bring me the piano", "", "unknown_object"),
+        ("carry the red cube to the rooftop helipad", "", "unknown_location"),
+        ("do not take the red cube to room_b", "", "forbidden_by_request"),
         ("bring me the red cube", "g1_unavailable", "robot_unavailable"),
         ("bring me the red cube", "lease_held", "robot_unavailable"),
     ],

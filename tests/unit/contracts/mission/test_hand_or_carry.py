@@ -85,7 +85,7 @@ def test_loading_is_done_when_the_tray_that_hosts_it_sees_the_object(
     ("where", "stamp_ns", "missing"),
     [
         ("table_b", LATER_NS, ""),
-        ("table_a", LATER_NS, "red_cube.at is (0.45, 0.20), not table_b"),
+        ("table_a", LATER_NS, "red_cube.at is (0.40, 0.00), not table_b"),
         ("table_b", NOW_NS, "red_cube has not been seen since the dispatch"),
     ],
 )

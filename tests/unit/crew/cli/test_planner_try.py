@@ -56,7 +56,7 @@ def test_robots_are_assumed_at_rest() -> None:
         "standing": True, "moving": False, "holding": "none", "handed": "none", "waved": False,
     }  # fmt: skip
     assert world.robots["go2"].fluents["at"].value == "pickup"
-    assert world.values["red_cube"].reading.position == Point(0.45, 0.2)
+    assert world.values["red_cube"].reading.position == Point(0.4, 0.0)
     assert world.values["requester"].reading.position is None
 
 
