@@ -8,7 +8,7 @@ from collections.abc import Iterable, Iterator, Sequence
 
 import msgspec
 
-from crew.adapters.mavlink.occupancy import Disc, Spot, distance_to_segment_m
+from crew.adapters.ground.occupancy import Disc, Spot, distance_to_segment_m
 
 HIT_RADIUS_M = 0.12
 """What a beam has met is at least this large."""

@@ -4,7 +4,7 @@ import math
 from collections.abc import Sequence
 
 from crew.adapter import Place
-from crew.adapters.mavlink.occupancy import Disc, Spot
+from crew.adapters.ground.occupancy import Disc, Spot
 from crew.adapters.mavlink.options import RoverOptions
 from crew.adapters.mavlink.surroundings import Scan, in_the_way, new_obstacles
 from crew.adapters.mavlink.telemetry import Motion, Sample
