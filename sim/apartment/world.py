@@ -22,10 +22,12 @@ from crew.sim.apartment.sense import (
     yaw_of,
 )
 from crew.sim.apartment.site import Site, load_site
+from crew.sim.appearance import Appearance
 from crew.sim.autopilot.link import parse_endpoint
 from crew.sim.config import WorldConfig
 from crew.sim.faults import Faults
 from crew.sim.noise import stream
+from crew.sim.scenes import Eye
 from crew.sim.truth import SceneTruth
 from crew.sim.unitree.g1 import G1
 from crew.sim.unitree.go2 import Go2
@@ -104,6 +106,14 @@ class Apartment:
             targets={"requester": self._requester.position, **things},
         )
 
+    def appearance(self) -> Appearance:
+        """What the world looks like, for whoever draws it."""
+        return Appearance(self._model, self._data)
+
+    def cameras(self) -> dict[str, Eye]:
+        """None that is watched: what robots see comes over the side channel."""
+        return {}
+
     def set_fault(self, name: str, on: bool) -> None:
         """Switch a fault while running. Raises ValueError with the valid names and the nearest for an unknown one."""
         self._faults.set(name, on)
@@ -135,6 +145,7 @@ class Apartment:
 
     def _tick(self) -> None:
         now_ns = self.time_ns
+        self._faults.advance(now_ns)
         self._tray.tick()
         self._requester.tick()
         self._mishaps.tick(now_ns, TICK_S, self._tray.reading[0])
