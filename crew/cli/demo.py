@@ -11,10 +11,11 @@ from crew.cli.goal import goal_error_m, true_places
 from crew.cli.output import coloured, say, say_event, say_json
 from crew.cli.progress import proof_progress
 from crew.cli.session import EXIT_CODES, home, run
+from crew.errors import UsageError
 from crew.keys import Keys
 from crew.launch.live import UNSECURED, LiveCrew, live_crew
 from crew.launch.options import LaunchOptions
-from crew.library import demo_request
+from crew.library import demo_request, load_crew_file
 from crew.mailbox import KeepLatest, Letter, letters
 from crew.messages import MissionEvent, SimTruth
 from crew.verify import REPORT
@@ -60,6 +61,10 @@ def run_demo(options: LaunchOptions, request: str | None, as_json: bool) -> int:
 
 async def _demo(options: LaunchOptions, request: str, as_json: bool) -> int:
     began = time.monotonic()
+    if real := [robot.name for robot in load_crew_file(options.crew).robots if robot.connection]:
+        raise UsageError(
+            f"a demo moves simulated robots only, and {', '.join(real)} has a real connection; use crew up"
+        )
     async with live_crew(options, home(), proof_progress) as crew:
         if not as_json:
             _introduce(crew, request, time.monotonic() - began)

@@ -405,6 +405,34 @@ def certs_rotate(crew: CrewName = "air_ground", host: Hosts = None) -> None:
     _end(run_rotate(crew, tuple(host or ())))
 
 
+@app.command("run")
+def run_one(
+    role: Annotated[str, typer.Argument(help="router, orchestrator, planner, gateway or robot-NAME.")],
+    crew: CrewName = "air_ground",
+    router: Annotated[str, typer.Option(help="Where the router listens.")] = "tls/127.0.0.1:7448",
+    guests: Annotated[str, typer.Option(help="Where the router takes guests in.")] = "tcp/127.0.0.1:7447",
+    runs: Runs = Path("runs"),
+    planner: Planner = "embedded",
+) -> None:
+    """Run one role of a crew of real robots by itself: for a service manager (crew deploy)."""
+    from crew.actors.specs import PlannerChoice
+    from crew.cli.alone import run_role
+    from crew.launch.options import LaunchOptions
+
+    _end(run_role(role, LaunchOptions(crew=crew, runs=runs, planning=PlannerChoice(name=planner)), router, guests))
+
+
+@app.command()
+def deploy(
+    crew: CrewName = "air_ground",
+    out: Annotated[Path, typer.Option(help="Folder to write to.")] = Path("deploy"),
+) -> None:
+    """Write the router's configuration and the systemd units of a deployment."""
+    from crew.cli.deploy import run_deploy
+
+    _end(run_deploy(crew, out))
+
+
 @app.command()
 def doctor(
     crew: CrewName = "air_ground",

@@ -9,15 +9,16 @@ from crew.library import load_rules
 
 
 def resolve(options: LaunchOptions) -> Rules:
-    """Rules as this run uses them. Raises UsageError for a real connection: there are no locks yet."""
+    """Rules as this run uses them: a simulated site with its survey, or real robots and none.
+
+    Raises UsageError where the command line and the crew file do not go together.
+    """
     rules = load_rules(options.crew, contracts=options.contracts)
     crew = rules.crew
     real = [r.name for r in crew.robots if r.connection]
     if real:
-        raise UsageError(
-            f"{', '.join(real)} of {crew.source} has a real connection; this version secures no bus and starts "
-            f"simulated robots only: write sim: instead of connection:"
-        )
+        _check_real(crew, real, options)
+        return replace(rules, crew=replace(crew, sim=None))
     if crew.sim is None:
         raise UsageError(f"{crew.source} has no sim: section, which its simulated robots need; add sim: {{scene: ...}}")
     sim = SimSpec(
@@ -28,6 +29,25 @@ def resolve(options: LaunchOptions) -> Rules:
         autopilots=crew.sim.autopilots,
     )
     return replace(rules, crew=_surveyed(crew, sim))
+
+
+def _check_real(crew: Crew, real: list[str], options: LaunchOptions) -> None:
+    """Real robots share no time and no process with anything simulated."""
+    simulated = [r.name for r in crew.robots if not r.connection]
+    if simulated:
+        raise UsageError(
+            f"{', '.join(real)} of {crew.source} has a real connection and {', '.join(simulated)} is simulated, but "
+            f"mission time is either the wall's or the simulation's; write connection: or sim: for all of them"
+        )
+    if options.single_process:
+        raise UsageError(
+            f"--single-process with real robots ({', '.join(real)}): one process would hold every key; leave it out"
+        )
+    for given, option in ((options.faults, "--fault"), (options.map, "--map"), (options.seed is not None, "--seed")):
+        if given:
+            raise UsageError(
+                f"{option} is for a simulated site, and {', '.join(real)} has a real connection; leave it out"
+            )
 
 
 def _surveyed(crew: Crew, sim: SimSpec) -> Crew:

@@ -37,6 +37,7 @@ def process_table(
     """Every process of the crew, with what it is started with."""
     packed = pack(rules)
     ports = {robot.name: free_udp_port() for robot in rules.crew.robots}
+    simulated = rules.crew.sim is not None
     orchestrator = OrchestratorSpec(
         rules=packed,
         link=running.link("orchestrator"),
@@ -44,7 +45,7 @@ def process_table(
         home=str(home),
         epoch=epoch,
         planner=options.planning.name,
-        simulated=True,
+        simulated=simulated,
         operator_key=operator_key,
     )
     robots = [
@@ -55,8 +56,8 @@ def process_table(
                 rules=packed,
                 robot=robot.name,
                 link=running.link(f"{ROBOT_PREFIX}{robot.name}"),
-                connection=f"udpin:127.0.0.1:{ports[robot.name]}",
-                simulated=True,
+                connection=robot.connection or f"udpin:127.0.0.1:{ports[robot.name]}",
+                simulated=simulated,
                 operator_key=operator_key,
                 orchestrator_key=orchestrator_key,
             ),
@@ -69,12 +70,12 @@ def process_table(
         link=running.link(RECORDER),
         run_folder=str(run_folder),
         planner=options.planning.name,
-        simulated=True,
+        simulated=simulated,
         port=view_port,
     )
     return [
         Child(name="router", module="crew.router", spec=_router(rules, running), last=True),
-        Child(name="simulation", module="crew.sim.process", spec=_simulation(rules, options, running, ports)),
+        *([_simulation(rules, options, running, ports)] if simulated else []),
         *robots,
         Child(name="orchestrator", module="crew.actors.orchestrator.process", spec=orchestrator),
         Child(name="planner", module="crew.actors.planner.process", spec=planner, secrets=PLANNER_KEYS),
@@ -111,9 +112,9 @@ def _router(rules: Rules, running: Running) -> RouterSpec:
     return RouterSpec(link=running.link(ROUTER), robots=robots, guests=running.guests)
 
 
-def _simulation(rules: Rules, options: LaunchOptions, running: Running, ports: Mapping[str, int]) -> SimulationSpec:
+def _simulation(rules: Rules, options: LaunchOptions, running: Running, ports: Mapping[str, int]) -> Child:
     sim = rules.crew.sim
-    assert sim is not None, "resolve() refuses a crew without it"
+    assert sim is not None, "only a simulated crew has a simulation"
     world = WorldConfig(
         map=sim.map,
         scene=sim.scene,
@@ -123,9 +124,10 @@ def _simulation(rules: Rules, options: LaunchOptions, running: Running, ports: M
         links={robot.sim: f"udp:127.0.0.1:{ports[robot.name]}" for robot in rules.crew.robots},
     )
     vehicles = {robot.name: robot.sim for robot in rules.crew.robots}
-    return SimulationSpec(
+    spec = SimulationSpec(
         crew=rules.crew.name, link=running.link("simulation"), world=world, vehicles=vehicles, speed=options.speed
     )
+    return Child(name="simulation", module="crew.sim.process", spec=spec)
 
 
 def free_udp_port() -> int:
