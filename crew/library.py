@@ -104,6 +104,7 @@ def kind_names() -> list[str]:
 @cache
 def load_kind(name: str) -> "Kind":
     """An installed kind by its name. Raises UsageError."""
+    from crew.contracts.kind_check import mistakes
     from crew.contracts.skill import Kind
 
     entry = _kind_entries().get(name)
@@ -115,6 +116,10 @@ def load_kind(name: str) -> "Kind":
         raise UsageError(f"kind {name!r} ({entry.value}) can't be imported: {error}; reinstall its package") from error
     if not isinstance(kind, Kind) or kind.name != name:
         raise UsageError(f"{entry.value} is not a kind called {name!r}; correct the entry point of group {KINDS_GROUP}")
+    found = mistakes(kind)
+    if found:
+        told = "\n".join(f"  {text}" for text in found)
+        raise UsageError(f"kind {name!r} ({entry.value}) does not fit together:\n{told}")
     return kind
 
 

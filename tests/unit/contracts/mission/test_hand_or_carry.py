@@ -9,9 +9,22 @@ from crew.contracts.gate.scope import scope_of
 from crew.contracts.mission.effect import unseen_effect
 from crew.contracts.mission_state import MissionState, StepPhase
 from crew.contracts.plan import Call, Plan
-from crew.contracts.snapshot import Point, RobotState, StampedValue
+from crew.contracts.snapshot import RobotState, StampedValue
 from tests.unit.contracts.build import NOW_NS, done, executing, judged, refused, rejected, verdict, with_step
-from tests.unit.contracts.indoor import APPROACH, HAND, LOAD, carry, deliver, g1, go2, indoor, indoors, requester, seen
+from tests.unit.contracts.indoor import (
+    APPROACH,
+    HAND,
+    LOAD,
+    carry,
+    deliver,
+    g1,
+    go2,
+    indoor,
+    indoors,
+    place,
+    requester,
+    seen,
+)
 
 BRING = "bring me the red cube"
 TO_ROOM = "carry the red cube to room_b"
@@ -85,17 +98,15 @@ def test_loading_is_done_when_the_tray_that_hosts_it_sees_the_object(
     ("where", "stamp_ns", "missing"),
     [
         ("table_b", LATER_NS, ""),
-        ("table_a", LATER_NS, "red_cube.at is (0.40, 0.00), not table_b"),
+        ("table_a", LATER_NS, f"red_cube.at is ({place('table_a').x:.2f}, {place('table_a').y:.2f}), not table_b"),
         ("table_b", NOW_NS, "red_cube has not been seen since the dispatch"),
     ],
 )
 def test_placing_is_done_when_the_object_is_seen_there(where: str, stamp_ns: int, missing: str) -> None:
     rules = indoor()
-    spot = rules.crew.location(where)
-    assert spot is not None
     put = Plan("manipulation_only", (Call("g1", "pick_place", {"object": "red_cube", "location": "table_b"}),))
     mission = with_step(executing("put the cube on table_b", put, rules), "act", StepPhase.CONFIRMING)
-    world = indoors(g1(LATER_NS), values=(seen("red_cube", Point(spot.x, spot.y), stamp_ns=stamp_ns),))
+    world = indoors(g1(LATER_NS), values=(seen("red_cube", place(where), stamp_ns=stamp_ns),))
     assert unseen_effect(mission.steps["act"], scope_of(mission, world, rules, LATER_NS)) == missing
 
 

@@ -6,9 +6,9 @@ import pytest
 
 from crew.actors.specs import PlannerChoice
 from crew.cli.planner import assumed, run_try
-from crew.contracts.snapshot import Point
 from crew.errors import UsageError
 from crew.library import load_rules
+from tests.unit.contracts.indoor import place
 
 CREW = "humanoid_quadruped"
 
@@ -56,7 +56,7 @@ def test_robots_are_assumed_at_rest() -> None:
         "standing": True, "moving": False, "holding": "none", "handed": "none", "waved": False,
     }  # fmt: skip
     assert world.robots["go2"].fluents["at"].value == "pickup"
-    assert world.values["red_cube"].reading.position == Point(0.4, 0.0)
+    assert world.values["red_cube"].reading.position == place("table_a")
     assert world.values["requester"].reading.position is None
 
 
