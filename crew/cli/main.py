@@ -273,7 +273,9 @@ def contracts_show(
 @contracts_app.command("graph")
 def contracts_graph(
     name: Annotated[str, typer.Argument(help="A contract of the crew.")],
-    crew: Annotated[str, typer.Option("--crew", help="Crew whose contract is drawn.")] = "air_ground",
+    crew: Annotated[
+        str, typer.Option("--crew", help="Crew whose contract is drawn; any shipped one if left out.")
+    ] = "",
     form: Annotated[str, typer.Option("--as", help="mermaid or svg.")] = "mermaid",
     to: Annotated[Path | None, typer.Option(help="File to write instead of printing.")] = None,
 ) -> None:

@@ -55,7 +55,7 @@ def test_what_is_installed_fits_together(name: str) -> None:
         (placing(puts=("location", "object")), "it names an argument for an object, then one for a location"),
         (placing(puts=("object", "place")), "puts names object, place"),
         (replace(QUADRUPED, skills=(*QUADRUPED.skills, QUADRUPED.skills[0])), "skill navigate is declared twice"),
-        (replace(QUADRUPED, parts=(Part(name="tray", holds="moving", about="."),)), "part tray: 'moving' is no declared"),
+        (replace(QUADRUPED, parts=(Part(name="tray", holds="moving", about="."),)), "part tray: 'moving' is no"),
         (
             replace(QUADRUPED, publishes=(BY_LOOKING,)),
             "value v: it names skill 'look'",

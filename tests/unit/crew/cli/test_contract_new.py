@@ -45,7 +45,10 @@ def test_a_picture_goes_to_a_file_or_to_the_terminal(tmp_path: Path, capsys: pyt
     assert (tmp_path / "carry.svg").read_text(encoding="utf-8").startswith("<svg ")
     capsys.readouterr()
     assert run_graph("carry", "humanoid_quadruped", "mermaid", None) == 0
-    assert capsys.readouterr().out.startswith("flowchart TD\n")
+    drawn = capsys.readouterr().out
+    assert drawn.startswith("flowchart TD\n")
+    assert run_graph("carry", "", "mermaid", None) == 0
+    assert capsys.readouterr().out == drawn
 
 
 @pytest.mark.parametrize(
