@@ -17,7 +17,7 @@ from tests.unit.contracts.indoor import indoor, indoors, place, requester, seen
 from tests.unit.contracts.language.corpus import Judged, Request, corpus, judge, mistake
 from tests.unit.contracts.language.wrong_plans_indoor import is_wrong, mutations, pool
 
-HALVES = ("first", "second", "third", "fourth", "fifth", "sixth", "seventh")
+HALVES = ("first", "second", "third", "fourth", "fifth", "sixth", "seventh", "eighth")
 ALL = [request for half in HALVES for request in corpus(half, "requests_humanoid_quadruped.yaml")]
 NEEDLESS = 0.10
 """The largest share of acceptable requests that may be refused; one that is asked back counts half."""
