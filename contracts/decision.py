@@ -25,6 +25,9 @@ class Decision(msgspec.Struct, frozen=True, kw_only=True):
     places: Mapping[str, Point] = {}
     """Where each symbolic argument leads, pinned now."""
 
+    subject: str = ""
+    """What a person has to approve, or has approved, for a step that wants it (`gate.approval`)."""
+
     @property
     def allowed(self) -> bool:
         return self.refusal is None

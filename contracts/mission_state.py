@@ -36,6 +36,7 @@ class StepPhase(StrEnum):
 
     PENDING = "pending"
     DECIDING = "deciding"
+    ASKING = "asking"
     SENT = "sent"
     RUNNING = "running"
     CONFIRMING = "confirming"
@@ -48,7 +49,9 @@ class StepPhase(StrEnum):
 
 ACTIVE = frozenset({StepPhase.SENT, StepPhase.RUNNING, StepPhase.CONFIRMING})
 """Steps whose robot may be moving because of them."""
-CONSUMED = frozenset(StepPhase) - {StepPhase.PENDING, StepPhase.DECIDING, StepPhase.REFUSED}
+OPEN = frozenset({StepPhase.PENDING, StepPhase.DECIDING, StepPhase.ASKING})
+"""Steps that were not authorised yet."""
+CONSUMED = frozenset(StepPhase) - OPEN - {StepPhase.REFUSED}
 """Steps that were authorised: they are never authorised again."""
 
 
@@ -73,14 +76,26 @@ class StepRecord(msgspec.Struct, frozen=True, kw_only=True):
     detail: str = ""
 
 
+class Approval(msgspec.Struct, frozen=True, kw_only=True):
+    """A person's yes to one step. `subject` is the digest of exactly what was approved."""
+
+    step: str
+    subject: str
+    at_ns: int
+
+
 class Question(msgspec.Struct, frozen=True, kw_only=True):
-    """What a person is asked to confirm. `token` binds the answer to the exact reading and calls."""
+    """What a person is asked. `token` binds the answer to the exact reading and plan, or to one call and state."""
 
     text: str
     token: str
-    approves: tuple[str, ...] = ()
-    """Steps whose approval the answer gives."""
     unread: tuple[str, ...] = ()
+    """Words that were not understood; the question is about the whole plan."""
+    step: str = ""
+    """The step that waits for approval; empty for a question about the plan."""
+    subject: str = ""
+    """The digest of what would be approved."""
+    asked_ns: int = 0
 
 
 class MissionState(msgspec.Struct, frozen=True, kw_only=True):
@@ -106,7 +121,7 @@ class MissionState(msgspec.Struct, frozen=True, kw_only=True):
     """Roles whose safe state was reached or can't be commanded."""
     sequence: int = 0
     confirmed: bool = False
-    approvals: tuple[str, ...] = ()
+    approvals: tuple[Approval, ...] = ()
     question: Question | None = None
     refusal: Refusal | None = None
     message: str = ""
@@ -126,7 +141,7 @@ def enabled(state: MissionState) -> tuple[str, ...]:
     if state.instance is None:
         return ()
     busy = {r.call.robot for r in (*state.steps.values(), *state.safe.values()) if r.phase in ACTIVE}
-    busy |= {r.call.robot for r in state.steps.values() if r.phase is StepPhase.DECIDING}
+    busy |= {r.call.robot for r in state.steps.values() if r.phase in OPEN - {StepPhase.PENDING}}
     found: list[str] = []
     for step in state.instance.steps:
         record = state.steps[step.step]

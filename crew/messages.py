@@ -234,14 +234,23 @@ class PlannerProposal(Message, frozen=True, kw_only=True):
     origin: ProposalOrigin | None = None
 
 
+ANSWER = "crew.answer"
+"""The purpose that an answer's signature is bound to."""
+
+
 class Answer(Message, frozen=True, kw_only=True):
-    """A person's answer to a mission's question; `token` comes from the question."""
+    """A person's answer to a mission's question; `token` comes from the question. An approval needs the signature."""
 
     schema: ClassVar[str] = "crew.answer"
     version: ClassVar[int] = 1
     token: str
     yes: bool
     by: str = ""
+    signature: bytes = b""
+
+    def signed_part(self, crew: str, mission: str) -> bytes:
+        """What the operator's signature covers."""
+        return "\n".join((crew, mission, self.token, "yes" if self.yes else "no", self.by)).encode()
 
 
 class CancelMission(Message, frozen=True, kw_only=True):
@@ -318,6 +327,8 @@ class MissionStatus(Message, frozen=True, kw_only=True):
     message: str
     question: str = ""
     token: str = ""
+    step: str = ""
+    """The step that waits for approval; empty if the question is about the plan."""
 
 
 class StopStatus(Message, frozen=True, kw_only=True):

@@ -25,6 +25,7 @@ from crew.contracts.site import Rules
 from crew.keys import Keys, is_chunk
 from crew.mailbox import Events, KeepLatest, Letter, Mailbox, letters
 from crew.messages import (
+    ANSWER,
     Answer,
     CancelMission,
     CrewStatus,
@@ -35,7 +36,7 @@ from crew.messages import (
     RobotState,
     RobotValue,
 )
-from crew.signing import SigningKey
+from crew.signing import SigningKey, verify
 from crew.wire import Message
 
 MAX_OPEN = 16
@@ -174,10 +175,21 @@ class Orchestrator:
                 case Intake() as intake:
                     self._take_request(intake)
                 case Answer() as answer:
-                    at_ns = self._clock.now_ns()
-                    self.shell.feed(mission, ev.Answered(at_ns=at_ns, token=answer.token, yes=answer.yes))
+                    self._take_answer(mission, answer)
                 case CancelMission() as cancel:
                     self.shell.cancel(mission, by=cancel.by or "a person")
+
+    def _take_answer(self, mission: str, answer: Answer) -> None:
+        """Only the operator's signature approves a step; a question about the plan takes any answer that comes here."""
+        state = self.shell.missions.get(mission)
+        if state is not None and state.question is not None and state.question.step:
+            part = answer.signed_part(self._keys.crew, mission)
+            if not verify(self._operator_key, ANSWER, part, answer.signature):
+                self._ledger.note("answer_refused", f"{mission}: an answer by {answer.by[:80]!r} without the signature")
+                self._announcer.refused_answer(state)
+                return
+        at_ns = self._clock.now_ns()
+        self.shell.feed(mission, ev.Answered(at_ns=at_ns, token=answer.token, yes=answer.yes, by=answer.by[:80]))
 
     def _take_request(self, intake: Intake) -> None:
         if not is_chunk(intake.mission):
@@ -252,7 +264,7 @@ class Orchestrator:
 
 
 def _mission_status(mission: MissionState) -> MissionStatus:
-    question = mission.question if mission.phase == "asking" else None
+    question = mission.question
     return MissionStatus(
         mission=mission.id,
         request=mission.request[:200],
@@ -261,4 +273,5 @@ def _mission_status(mission: MissionState) -> MissionStatus:
         message=mission.message,
         question="" if question is None else question.text,
         token="" if question is None else question.token,
+        step="" if question is None else question.step,
     )

@@ -6,10 +6,11 @@ from collections.abc import Mapping
 
 from crew.bus.port import Bus, Qos
 from crew.clock import Clock
+from crew.contracts.codes import Code
 from crew.contracts.gate.sighting import places
 from crew.contracts.mission import event as ev
 from crew.contracts.mission.provenance import sources
-from crew.contracts.mission_state import ENDS, MissionState, Phase, StepPhase
+from crew.contracts.mission_state import ENDS, MissionState, Phase, Question, StepPhase
 from crew.contracts.site import Rules
 from crew.contracts.snapshot import ValueReading
 from crew.keys import Keys
@@ -22,6 +23,7 @@ MOVED_M = 0.5
 _OUTCOMES: Mapping[StepPhase, str] = {
     StepPhase.PENDING: "pending",
     StepPhase.DECIDING: "pending",
+    StepPhase.ASKING: "pending",
     StepPhase.SENT: "unknown",
     StepPhase.RUNNING: "unknown",
     StepPhase.CONFIRMING: "unknown",
@@ -89,9 +91,9 @@ class Announcer:
             case ev.Validated():
                 self._say_validation(new, event)
             case ev.Answered():
-                self._put(new, "phase", "confirmed" if new.phase is not old.phase else "answer to another question")
+                self._say_answer(old, new, event)
             case ev.Decided():
-                self._say_decision(new, event)
+                self._say_decision(old, new, event)
             case ev.Accepted():
                 self._say_record(new, event.sequence, "step", "has begun")
             case ev.Outcome() if new is not old:
@@ -115,8 +117,39 @@ class Announcer:
             question = verdict.question
             self._put(new, "question", question.text, question=question.text, token=question.token)
 
-    def _say_decision(self, new: MissionState, event: ev.Decided) -> None:
+    def _say_answer(self, old: MissionState, new: MissionState, event: ev.Answered) -> None:
+        if new is old:
+            self._put(new, "phase", "answer to another question")
+            return
+        said = "yes" if event.yes else "no"
+        what = f"{said} to step {old.question.step}" if old.question and old.question.step else said
+        self._put(new, "phase", f"{event.by or 'a person'} answers {what}")
+
+    def refused_answer(self, mission: MissionState) -> None:
+        """Somebody who is not the operator answered a question that only the operator may answer."""
+        text = "answer refused: an approval needs the operator's signature (crew approve)"
+        self._put(mission, "phase", text, code=Code.APPROVAL_MISSING)
+
+    def _ask_approval(self, new: MissionState, question: Question) -> None:
+        text = f"{question.text} (crew approve {new.id})"
+        self._put(
+            new,
+            "question",
+            text,
+            step=question.step,
+            code=Code.APPROVAL_MISSING,
+            question=question.text,
+            token=question.token,
+            steps=self.steps(new),
+            contract=new.contract,
+        )
+
+    def _say_decision(self, old: MissionState, new: MissionState, event: ev.Decided) -> None:
         decision = event.decision
+        if decision.refusal is not None and decision.refusal.code is Code.APPROVAL_MISSING:
+            if new.question is not None and new.question is not old.question:
+                self._ask_approval(new, new.question)
+            return
         safe = " to reach its safe state" if decision.step.startswith("safe:") else ""
         if decision.refusal is None:
             places = "".join(f"; {name} is ({p.x:.2f}, {p.y:.2f})" for name, p in decision.places.items())

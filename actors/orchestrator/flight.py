@@ -196,5 +196,6 @@ class Dispatcher:
             plan_digest=digest(mission.plan),
             contract_digest=digest(contract),
             request_id=mission.request_id,
+            approval=effect.approval,
         )
         return permit(unsigned, self._keys.crew, self._key)

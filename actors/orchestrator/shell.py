@@ -180,5 +180,6 @@ class MissionShell:
 
 
 def is_idle(mission: MissionState) -> bool:
-    """Whether mission time need not hurry for this mission: it waits for a person."""
-    return mission.phase is Phase.ASKING
+    """Whether mission time need not hurry for this mission: it waits for a person, and no robot is at work for it."""
+    waits = mission.phase is Phase.EXECUTING and mission.question is not None
+    return mission.phase is Phase.ASKING or (waits and not mission.active())

@@ -5,7 +5,9 @@ Checks run in the order of the codes: capability, arguments, workflow, containme
 
 from collections.abc import Mapping
 
+from crew.contracts.codes import Code
 from crew.contracts.decision import Decision
+from crew.contracts.gate.approval import subject_of, wants_approval
 from crew.contracts.gate.arguments import check_call
 from crew.contracts.gate.state import check_state
 from crew.contracts.gate.value import check_values
@@ -40,9 +42,15 @@ class Gate:
             or check_state(call, step, mission, world, rules, now_ns, purpose)
         )
         places: Mapping[str, Point] = {}
-        if refusal is None:
+        subject = ""
+        if refusal is None or refusal.code is Code.APPROVAL_MISSING:
             outcome = check_values(call, step, mission, world, rules, now_ns)
-            refusal, places = (outcome, {}) if isinstance(outcome, Refusal) else (None, outcome)
+            if isinstance(outcome, Refusal):
+                refusal = refusal or outcome
+            else:
+                places = outcome
+            if purpose is Purpose.EXECUTE and wants_approval(step, mission, rules):
+                subject = subject_of(call, step, mission, world, rules, now_ns)
         return Decision(
             mission=mission.id,
             step=step,
@@ -51,6 +59,7 @@ class Gate:
             at_ns=now_ns,
             refusal=refusal,
             places=places,
+            subject=subject,
         )
 
     def _check_containment(self, mission: MissionState, rules: Rules) -> Refusal | None:

@@ -4,6 +4,7 @@ from collections.abc import Iterator
 
 from crew.contracts.codes import ORDER, Code
 from crew.contracts.contract import Condition
+from crew.contracts.gate.approval import check_approval
 from crew.contracts.gate.guard import (
     SECOND_NS,
     Scope,
@@ -50,7 +51,10 @@ def _conditions(
     yield from _preconditions(call, scope)
     if purpose is Purpose.EXECUTE:
         yield from _guards(step, mission, scope)
-        refusals = (_check_deadline(mission, rules, now_ns), _check_approval(step, mission, rules))
+        refusals = (
+            _check_deadline(mission, rules, now_ns),
+            check_approval(call, step, mission, world, rules, now_ns),
+        )
         yield from (r for r in refusals if r is not None)
 
 
@@ -174,12 +178,3 @@ def _check_deadline(mission: MissionState, rules: Rules, now_ns: int) -> Refusal
         observed=f"{spent_s:.0f} s",
         allowed=f"{limit_s:g} s",
     )
-
-
-def _check_approval(step: str, mission: MissionState, rules: Rules) -> Refusal | None:
-    assert mission.instance is not None
-    declared = rules.contracts[mission.instance.contract].step(step)
-    if declared is None or not declared.approval or step in mission.approvals:
-        return None
-    message = f"step {step} waits for a person's approval"
-    return Refusal(code=Code.APPROVAL_MISSING, message=message, field=step, observed="none", allowed="an approval")

@@ -8,7 +8,7 @@ from msgspec.structs import replace
 from crew.contracts.contract import Contract
 from crew.contracts.mission import event as ev
 from crew.contracts.mission.record import SAFE, accept, confirm, find, put, result_phase
-from crew.contracts.mission_state import ACTIVE, MissionState, Phase, Purpose, StepPhase, StepRecord
+from crew.contracts.mission_state import ACTIVE, OPEN, MissionState, Phase, Purpose, StepPhase, StepRecord
 
 Result = tuple[MissionState, tuple[ev.AnyEffect, ...]]
 _ENDED = {Phase.HALTING: Phase.HALTED, Phase.CANCELLING: Phase.CANCELLED}
@@ -24,7 +24,7 @@ def halt(state: MissionState, message: str, contracts: Mapping[str, Contract], p
     instance = state.instance
     assert instance is not None
     contract = contracts[instance.contract]
-    state = replace(state, phase=phase, message=message, steps=_undecide(state.steps))
+    state = replace(state, phase=phase, message=message, steps=_undecide(state.steps), question=None)
     effects: list[ev.AnyEffect] = []
     for role, robot in instance.roles.items():
         running = [state.steps[name] for name in state.active(robot)]
@@ -39,10 +39,8 @@ def halt(state: MissionState, message: str, contracts: Mapping[str, Contract], p
 
 
 def _undecide(steps: Mapping[str, StepRecord]) -> dict[str, StepRecord]:
-    """A step that was being decided when the end began is not sent any more."""
-    return {
-        name: replace(r, phase=StepPhase.PENDING) if r.phase is StepPhase.DECIDING else r for name, r in steps.items()
-    }
+    """A step that was being decided, or asked for, when the end began is not sent any more."""
+    return {name: replace(r, phase=StepPhase.PENDING) if r.phase in OPEN else r for name, r in steps.items()}
 
 
 def _is_safe_skill(contract: Contract, role: str, record: StepRecord) -> bool:

@@ -48,6 +48,7 @@ class Answered(Event, frozen=True, kw_only=True, tag="answered"):
 
     token: str
     yes: bool
+    by: str = ""
 
 
 class Leased(Event, frozen=True, kw_only=True, tag="leased"):
@@ -170,6 +171,8 @@ class Send(Effect, frozen=True, kw_only=True, tag="send"):
     call: Call
     step: str
     places: Mapping[str, Point] = {}
+    approval: str = ""
+    """What a person approved, for a step that wants it."""
 
 
 class CancelRunning(Effect, frozen=True, kw_only=True, tag="cancel_running"):

@@ -13,6 +13,7 @@ from crew.contracts.contract import Contract
 from crew.contracts.gate.authorize import finding_refusal
 from crew.contracts.language.containment import check_reading
 from crew.contracts.mission import event as ev
+from crew.contracts.mission.consent import answered, ask, without
 from crew.contracts.mission.ending import ENDING, end_now, halt
 from crew.contracts.mission.record import accept, confirm, find, next_steps, put, result_phase
 from crew.contracts.mission.validation import pending_steps
@@ -78,11 +79,9 @@ def _answered(state: MissionState, event: ev.Answered, contracts: Mapping[str, C
     if question is None or event.token != question.token:
         return state, ()
     if event.yes:
-        agreed = replace(state, confirmed=bool(question.unread), approvals=question.approves)
-        return _wait(agreed, contracts)
-    code = Code.UNREAD_WORDS if question.unread else Code.APPROVAL_MISSING
+        return _wait(replace(state, confirmed=True, question=None), contracts)
     message = "the person did not confirm: " + question.text
-    refused = replace(state, refusal=Refusal(code=code, message=message, field="request"))
+    refused = replace(state, refusal=Refusal(code=Code.UNREAD_WORDS, message=message, field="request"))
     return end_now(refused, Phase.REJECTED, message)
 
 
@@ -119,10 +118,18 @@ def _decided(state: MissionState, event: ev.Decided, contracts: Mapping[str, Con
             dispatched_ns=event.at_ns,
             places=decision.places,
         )
-        state = put(replace(state, sequence=sent.sequence), decision.step, sent)
-        send = ev.Send(sequence=sent.sequence, call=record.call, step=decision.step, places=decision.places)
-        return state, (send,)
+        spent = replace(state, sequence=sent.sequence, approvals=without(state, decision.step))
+        send = ev.Send(
+            sequence=sent.sequence,
+            call=record.call,
+            step=decision.step,
+            places=decision.places,
+            approval=decision.subject,
+        )
+        return put(spent, decision.step, sent), (send,)
     refusal = decision.refusal
+    if refusal.code is Code.APPROVAL_MISSING:
+        return ask(state, decision)
     refused = replace(record, phase=StepPhase.REFUSED, code=refusal.code, detail=refusal.message)
     state = replace(put(state, decision.step, refused), refusal=refusal)
     return (
@@ -193,6 +200,7 @@ TABLE: dict[tuple[Phase, type], tuple[Handler, tuple[Phase, ...]]] = {
     (P.ASKING, ev.Answered): (_answered, (P.WAITING, P.REJECTED)),
     (P.WAITING, ev.Leased): (_leased, (P.EXECUTING,)),
     (P.EXECUTING, ev.Decided): (_decided, (P.EXECUTING, P.REJECTED, P.HALTING)),
+    (P.EXECUTING, ev.Answered): (answered, (P.EXECUTING, P.REJECTED, P.HALTING)),
     (P.EXECUTING, ev.Accepted): (accept, (P.EXECUTING,)),
     (P.EXECUTING, ev.Outcome): (_outcome, (P.EXECUTING, P.HALTING)),
     (P.EXECUTING, ev.EffectSeen): (_effect_seen, (P.EXECUTING,)),

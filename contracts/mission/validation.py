@@ -5,6 +5,7 @@ from msgspec.structs import replace
 
 from crew.contracts.codes import GROUP_OF, Code, Group
 from crew.contracts.decision import Authorizer
+from crew.contracts.gate.approval import approved, wants_approval
 from crew.contracts.gate.arguments import check_call
 from crew.contracts.gate.state import check_unheard
 from crew.contracts.gate.value import check_values
@@ -41,11 +42,9 @@ def validate(
         told = replace(mission, confirmed=True)
         refusal = _dry_run(instance, told, world, rules, now_ns, authorizer)
         if refusal is None:
-            return Validation(instance=instance, question=_question(mission, plan, instance, rules))
+            return Validation(instance=instance, question=_question(mission, plan, instance))
     if refusal is not None:
         return Validation(refusal=refusal)
-    if any(_wants_approval(s.step, instance, rules) for s in instance.steps):
-        return Validation(instance=instance, question=_question(mission, plan, instance, rules))
     return Validation(instance=instance)
 
 
@@ -57,17 +56,13 @@ def pending_steps(instance: Instance) -> dict[str, StepRecord]:
 def _dry_run(
     instance: Instance, mission: MissionState, world: Snapshot, rules: Rules, now_ns: int, authorizer: Authorizer
 ) -> Refusal | None:
-    """The gate's own decisions along the plan; approvals are asked for afterwards."""
-    state = replace(
-        mission,
-        phase=Phase.EXECUTING,
-        instance=instance,
-        steps=pending_steps(instance),
-        started_ns=now_ns,
-        approvals=tuple(s.step for s in instance.steps),
-    )
+    """The gate's own decisions along the plan, as if every approval were given; they are asked for in their turn."""
+    state = replace(mission, phase=Phase.EXECUTING, instance=instance, steps=pending_steps(instance), started_ns=now_ns)
     predicted = assumed_world(world, mission.id, rules, now_ns)
     for index, step in enumerate(instance.steps):
+        if wants_approval(step.step, state, rules):
+            yes = approved(step.call, step.step, state, predicted, rules, now_ns)
+            state = replace(state, approvals=yes)
         decision = authorizer.authorize(step.call, state, predicted, rules, now_ns, Purpose.EXECUTE)
         refusal, places = decision.refusal, decision.places
         if refusal is not None and refusal.code is Code.STATE_STALE:
@@ -101,19 +96,9 @@ def _at(refusal: Refusal, index: int) -> Refusal:
     return replace(refusal, field=field)
 
 
-def _wants_approval(step: str, instance: Instance, rules: Rules) -> bool:
-    declared = rules.contracts[instance.contract].step(step)
-    return declared is not None and declared.approval
-
-
-def _question(mission: MissionState, plan: Plan, instance: Instance, rules: Rules) -> Question:
+def _question(mission: MissionState, plan: Plan, instance: Instance) -> Question:
     unread = tuple(u.word for u in mission.reading.unread)
-    approves = tuple(s.step for s in instance.steps if _wants_approval(s.step, instance, rules))
     calls = "; ".join(str(s.call) for s in instance.steps)
-    parts = [f"I would do: {calls}."]
-    if unread:
-        parts.insert(0, f"I did not understand {', '.join(repr(w) for w in unread)} and would leave it out.")
-    if approves:
-        parts.append(f"Your approval is needed for: {', '.join(approves)}.")
+    text = f"I did not understand {', '.join(repr(w) for w in unread)} and would leave it out. I would do: {calls}."
     token = digest((mission.id, mission.reading, plan))[:16]
-    return Question(text=" ".join([*parts, "Shall I?"]), token=token, approves=approves, unread=unread)
+    return Question(text=f"{text} Shall I?", token=token, unread=unread)

@@ -45,8 +45,12 @@ def mishaps(
     limit_s = ground.rules.contracts[ground.instance.contract].deadline_s
     late = replace(mission, started_ns=NOW_NS - int((limit_s + 1) * SECOND_NS))
     yield Mishap("the deadline has passed", late, world)
-    if step in mission.approvals:
+    if mission.approvals:
         yield Mishap("nobody approved the step", replace(mission, approvals=()), world)
+        yes = mission.approvals[-1]
+        other, old = replace(yes, subject="another"), replace(yes, at_ns=LONG_AGO_NS)
+        yield Mishap("another call was approved", replace(mission, approvals=(other,)), world)
+        yield Mishap("the approval is old", replace(mission, approvals=(old,)), world)
 
 
 def _robot(state: RobotState, call: Call, ground: Ground, purpose: Purpose) -> Iterator[tuple[str, RobotState]]:

@@ -74,7 +74,7 @@ class Model:
     def initial(self) -> Move:
         """The mission once its plan was judged."""
         before = self.frame.mission(State(Phase.VALIDATING, (StepPhase.PENDING,) * len(self.frame.names)))
-        verdict = Validation(instance=self.instance, question=self.frame.question)
+        verdict = Validation(instance=self.instance)
         mission, _ = machine.step(before, ev.Validated(at_ns=NOW_NS, validation=verdict), self.rules.contracts)
         return Move((), self.frame.state(mission, self._any))
 
@@ -107,11 +107,6 @@ class Model:
     # --- events
 
     def _answers(self, state: State, mission: MissionState) -> Iterator[tuple[ev.AnyEvent, Note]]:
-        if state.phase is Phase.ASKING:
-            assert mission.question is not None
-            for yes in (True, False):
-                answer = ev.Answered(at_ns=NOW_NS, token=mission.question.token, yes=yes)
-                yield answer, Note("approve" if yes else "decline")
         if state.phase is Phase.WAITING:
             yield ev.Leased(at_ns=NOW_NS), Note("leased")
 

@@ -3,9 +3,12 @@
 from collections.abc import Iterable, Iterator, Mapping
 from typing import NamedTuple
 
+from msgspec.structs import replace
+
 from crew.contracts.codes import Code
 from crew.contracts.contract import Condition
 from crew.contracts.decision import Authorizer, Decision
+from crew.contracts.gate.approval import approved, wants_approval
 from crew.contracts.mission import judgement
 from crew.contracts.mission_state import MissionState, Purpose
 from crew.contracts.plan import Call
@@ -16,7 +19,7 @@ from crew.contracts.proof.subject import STATUS, Var, asked
 from crew.contracts.proof.trouble import Trouble
 from crew.contracts.proof.world import NOW_NS, Ground, Possible, skill_of
 from crew.contracts.skill import Entity
-from crew.contracts.snapshot import FluentValue
+from crew.contracts.snapshot import FluentValue, Snapshot
 
 CANNOT_BE_COMMANDED: dict[Code, str] = {
     Code.STOPPED: "on_stop",
@@ -94,7 +97,7 @@ class Desk:
         waiting = list(cone.worlds(possible))
         while waiting:
             world = waiting.pop(0)
-            decision = self._authorise(call, mission, world, purpose)
+            decision = self._authorise(call, step, mission, world, purpose)
             if decision.refusal is not None:
                 refused.setdefault(decision.refusal.code, (world, decision))
                 continue
@@ -118,19 +121,30 @@ class Desk:
     ) -> Iterator[Trouble]:
         """Each mishap on top of a world in which the call is allowed; the refusals are added to `refused`."""
         snapshot = self._ground.snapshot(dict(world.facts))
+        mission = self._consented(call, step, mission, snapshot, purpose)
         for mishap in mishaps(call, step, mission, snapshot, reads, self._ground, purpose):
             self.asked += 1
             rules = self._ground.rules
             decision = self._gate.authorize(call, mishap.mission, mishap.world, rules, NOW_NS, purpose)
             if decision.refusal is None:
                 yield Trouble("reckless_dispatch", f"{call} is sent although {mishap.name}", step)
-            else:
+            elif decision.refusal.code is not Code.APPROVAL_MISSING:
                 refused.setdefault(decision.refusal.code, (world, decision))
 
-    def _authorise(self, call: Call, mission: MissionState, world: World, purpose: Purpose) -> Decision:
+    def _authorise(self, call: Call, step: str, mission: MissionState, world: World, purpose: Purpose) -> Decision:
         self.asked += 1
         snapshot = self._ground.snapshot(dict(world.facts))
+        mission = self._consented(call, step, mission, snapshot, purpose)
         return self._gate.authorize(call, mission, snapshot, self._ground.rules, NOW_NS, purpose)
+
+    def _consented(
+        self, call: Call, step: str, mission: MissionState, world: Snapshot, purpose: Purpose
+    ) -> MissionState:
+        """Whoever is asked says yes: a no ends the mission as any refusal does, and the adversary has those already."""
+        rules = self._ground.rules
+        if purpose is Purpose.SAFE or not wants_approval(step, mission, rules):
+            return mission
+        return replace(mission, approvals=approved(call, step, mission, world, rules, NOW_NS))
 
     def _guards(self, step: str, mission: MissionState) -> Iterator[tuple[Var, FluentValue]]:
         """What the call's own preconditions and guards ask for."""

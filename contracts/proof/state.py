@@ -3,7 +3,7 @@
 from typing import NamedTuple
 
 from crew.contracts.language.mention import Reading
-from crew.contracts.mission_state import ACTIVE, ENDS, MissionState, Phase, Question, StepPhase, StepRecord
+from crew.contracts.mission_state import ACTIVE, ENDS, MissionState, Phase, StepPhase, StepRecord
 from crew.contracts.plan import Call, Instance, Plan
 from crew.contracts.proof.world import DISPATCHED_NS, MISSION, STARTED_NS, Possible, skill_of
 from crew.contracts.site import Rules
@@ -35,11 +35,9 @@ class Frame:
     def __init__(self, plan: Plan, instance: Instance, reading: Reading, rules: Rules, spot: Point) -> None:
         self.plan, self.instance, self.reading = plan, instance, reading
         contract = rules.contracts[instance.contract]
-        approves = tuple(s.name for s in contract.steps if s.approval and instance.step(s.name) is not None)
         self.names = tuple(item.step for item in instance.steps)
         self.calls: dict[str, Call] = {item.step: item.call for item in instance.steps}
         self.roles = tuple(instance.roles)
-        self.question = Question(text="Shall I?", token="t1", approves=approves) if approves else None
         self._places = {item.step: _places(item.call, rules, spot) for item in instance.steps}
         declared = {role: contract.role(role) for role in self.roles}
         self.safe_calls = {
@@ -57,7 +55,7 @@ class Frame:
             request="",
             reading=self.reading,
             phase=state.phase,
-            started_ns=-1 if state.phase in (Phase.ASKING, Phase.WAITING) else STARTED_NS,
+            started_ns=-1 if state.phase is Phase.WAITING else STARTED_NS,
             plan=self.plan,
             instance=self.instance,
             contract=self.instance.contract,
@@ -65,8 +63,6 @@ class Frame:
             safe={role: self._safe(role, phase) for role, phase in safe.items()},
             settled=tuple(role for role, done in zip(self.roles, state.settled, strict=False) if done),
             sequence=len(self.names) + len(self.roles),
-            approvals=() if self.question is None or state.phase is Phase.ASKING else self.question.approves,
-            question=self.question,
         )
 
     def _step(self, index: int, name: str, phase: StepPhase | None) -> StepRecord:

@@ -10,8 +10,6 @@ from crew.contracts.refusal import show
 _PLAIN = {
     "leased": "",
     "said_done": "",
-    "approve": "A person approves.",
-    "decline": "The person declines.",
     "cancel": "A person cancels the mission.",
     "stop": "A person stops the crew.",
     "deadline": "The contract's deadline passes.",

@@ -8,11 +8,12 @@ from collections.abc import Callable
 import msgspec
 
 from crew.bus.port import Bus, Qos
+from crew.cli.answering import signed_answer
 from crew.clock import WALL
 from crew.errors import BusError
 from crew.keys import Keys
 from crew.mailbox import Events, Letter, letters
-from crew.messages import Answer, MissionEvent
+from crew.messages import MissionEvent
 
 ANSWER_S = 10.0
 """How long the gateway may take to take a request."""
@@ -78,7 +79,7 @@ async def _follow(
                 said = answer(event)
                 if said is None:
                     return event
-                reply = Answer(token=event.token, yes=said, by="operator")
+                reply = signed_answer(keys.crew, event.mission, event.token, yes=said)
                 bus.put(keys.mission_confirm(event.mission), reply, qos=Qos.EVENT)
 
 

@@ -146,10 +146,22 @@ def confirm(
     no: Annotated[bool, typer.Option("--no", help="Decline instead.")] = False,
     crew: CrewOption = "",
 ) -> None:
-    """Answer a mission's question."""
-    from crew.cli.talk import run_confirm
+    """Answer a mission's question about what it did not understand."""
+    from crew.cli.answering import run_confirm
 
     _end(run_confirm(mission, not no, crew))
+
+
+@app.command()
+def approve(
+    mission: Annotated[str, typer.Argument(help="The mission whose step waits for approval (crew status).")],
+    no: Annotated[bool, typer.Option("--no", help="Decline instead: the mission ends.")] = False,
+    crew: CrewOption = "",
+) -> None:
+    """Approve the exact call that a mission waits with. Signed with the operator's key, good once, for 10 s."""
+    from crew.cli.answering import run_approve
+
+    _end(run_approve(mission, not no, crew))
 
 
 @app.command()

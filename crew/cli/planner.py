@@ -216,8 +216,12 @@ def _verdict(verdict: Validation | None, reason: str, reading: Reading) -> Mappi
             "question": None,
         }
     if verdict.question is not None:
-        code = "unread_words" if verdict.question.unread else "approval_missing"
-        return {"accepted": False, "code": code, "message": "a person is asked", "question": verdict.question.text}
+        return {
+            "accepted": False,
+            "code": "unread_words",
+            "message": "a person is asked",
+            "question": verdict.question.text,
+        }
     return {"accepted": True, "code": None, "message": "accepted", "question": None}
 
 

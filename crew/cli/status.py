@@ -60,7 +60,8 @@ def _say_status(status: CrewStatus) -> None:
         say(line)
     for mission in status.missions:
         if mission.question:
-            say(f"{mission.mission} asks: {mission.question}\n  crew confirm {mission.mission}")
+            command = "approve" if mission.step else "confirm"
+            say(f"{mission.mission} asks: {mission.question}\n  crew {command} {mission.mission}")
     if status.dropped:
         say(f"refused or lost messages: {', '.join(f'{k} {n}' for k, n in status.dropped.items())}")
 

@@ -1,12 +1,13 @@
-"""`crew request`, `watch`, `cancel`, `confirm`: speaking with a running crew."""
+"""`crew request`, `watch`, `cancel`: speaking with a running crew."""
 
 from crew.bus.port import Qos
+from crew.cli.answering import open_mission
 from crew.cli.follow import ask_person, event_box, follow_request
 from crew.cli.output import say, say_event, say_json
 from crew.cli.session import EXIT_CODES, operator, run
-from crew.errors import UsageError, nearest
+from crew.errors import UsageError
 from crew.launch.ready import query_status
-from crew.messages import Answer, CancelMission, CrewStatus, MissionEvent, MissionStatus
+from crew.messages import CancelMission, MissionEvent
 
 UNREADABLE = "unreadable_request"
 
@@ -27,7 +28,8 @@ async def _request(text: str, crew: str, as_json: bool) -> int:
         last = await follow_request(bus, keys, text, listen, answer=lambda e: None if as_json else ask_person(e))
     if last.what == "question":
         if not as_json:
-            say(f"answer it with: crew confirm {last.mission}, or crew confirm {last.mission} --no")
+            command = "approve" if last.step else "confirm"
+            say(f"answer it with: crew {command} {last.mission}, or crew {command} {last.mission} --no")
         return EXIT_CODES["rejected"]
     if last.code == UNREADABLE:
         return UsageError.exit_code
@@ -58,32 +60,7 @@ def run_cancel(mission: str, crew: str) -> int:
 
 async def _cancel(mission: str, crew: str) -> int:
     async with operator(crew) as (bus, keys, _):
-        found = _open_mission(await query_status(bus, keys, timeout_s=2.0), mission)
+        found = open_mission(await query_status(bus, keys, timeout_s=2.0), mission)
         bus.put(keys.mission_cancel(found.mission), CancelMission(by="operator"), qos=Qos.EVENT)
     say(f"asked {found.mission} to end; its robots reach their safe states (crew status)")
     return 0
-
-
-def run_confirm(mission: str, yes: bool, crew: str) -> int:
-    """0 once the answer is on its way to a mission that asks."""
-    return run(_confirm(mission, yes, crew))
-
-
-async def _confirm(mission: str, yes: bool, crew: str) -> int:
-    async with operator(crew) as (bus, keys, _):
-        found = _open_mission(await query_status(bus, keys, timeout_s=2.0), mission)
-        if not found.token:
-            raise UsageError(f"mission {mission} asks nothing; it is {found.phase} (crew status)")
-        answer = Answer(token=found.token, yes=yes, by="operator")
-        bus.put(keys.mission_confirm(found.mission), answer, qos=Qos.EVENT)
-    say(f"{'confirmed' if yes else 'declined'}: {found.question}")
-    return 0
-
-
-def _open_mission(status: CrewStatus | None, mission: str) -> MissionStatus:
-    if status is None:
-        raise UsageError("the orchestrator does not answer; see crew status")
-    found = {m.mission: m for m in status.missions}
-    if mission not in found:
-        raise UsageError(f"no mission is called {mission!r}{nearest(mission, found)}")
-    return found[mission]

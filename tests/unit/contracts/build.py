@@ -15,7 +15,7 @@ from crew.contracts.language.lexicon import lexicon_of
 from crew.contracts.language.reading import read_request
 from crew.contracts.matching import match
 from crew.contracts.mission.validation import Validation, pending_steps, validate
-from crew.contracts.mission_state import MissionState, Phase, Purpose, StepPhase, StepRecord
+from crew.contracts.mission_state import CONSUMED, MissionState, Phase, Purpose, StepPhase, StepRecord
 from crew.contracts.plan import ArgValue, Call, Instance, Plan
 from crew.contracts.refusal import Refusal
 from crew.contracts.site import Rules
@@ -128,7 +128,7 @@ def executing(text: str, plan: Plan, rules: Rules, **changes: Any) -> MissionSta
 
 def with_step(state: MissionState, step: str, phase: StepPhase, *, dispatched_ns: int = NOW_NS) -> MissionState:
     """The mission with one step moved to a phase; a dispatched one gets the next sequence number."""
-    sent = phase not in (StepPhase.PENDING, StepPhase.DECIDING, StepPhase.REFUSED)
+    sent = phase in CONSUMED
     sequence = state.sequence + 1 if sent else state.sequence
     record = StepRecord(
         call=state.steps[step].call,

@@ -11,6 +11,7 @@ from msgspec.structs import replace
 
 from crew.contracts.codes import ORDER, Code
 from crew.contracts.contract import Condition
+from crew.contracts.gate.approval import approved
 from crew.contracts.gate.guard import SECOND_NS
 from crew.contracts.mission_state import StepPhase
 from crew.contracts.plan import Call
@@ -81,13 +82,14 @@ def refusal_of(dispatch: Dispatch) -> Code | None:
     contract = replace(contract, needs=guards)
     strict = replace(strict, contracts={"dispatch_only": contract})
     mission = b.executing(dispatch.text, b.VICTIM_PLAN, strict, confirmed=True)
-    mission = replace(mission, approvals=("dispatch",) if dispatch.approved else ())
     if dispatch.consumed:
         record = replace(mission.steps["dispatch"], phase=StepPhase.SUCCEEDED)
         mission = replace(mission, steps={"dispatch": record})
     now_ns = b.NOW_NS + 301 * SECOND_NS if dispatch.late else b.NOW_NS
     state = b.tb3(moving=dispatch.moving, at_ns=now_ns - (3 if dispatch.stale else 0) * SECOND_NS, **dispatch.robot)
     snapshot = b.world(state, fix=b.victim(stamp_ns=now_ns) if dispatch.fix else None)
+    if dispatch.approved and dispatch.call == b.DISPATCH:
+        mission = replace(mission, approvals=approved(dispatch.call, "dispatch", mission, snapshot, strict, now_ns))
     if not dispatch.contracts:
         strict = replace(strict, contracts={})
     refusal = b.judged(dispatch.call, mission, snapshot, strict, now_ns=now_ns).refusal

@@ -251,7 +251,13 @@ CASES = [
     Case(Code.PRECONDITION_FAILED, "iris.airborne", "true", "is false", takeoff_with(airborne=True)),
     Case(Code.PRECONDITION_FAILED, "responder.moving", "true", "is false", guard_of_a_contract, line=True),
     Case(Code.DEADLINE_PASSED, "deadline_s", "481 s", "480 s", after_the_deadline),
-    Case(Code.APPROVAL_MISSING, "dispatch", "none", "an approval", without_approval),
+    Case(
+        Code.APPROVAL_MISSING,
+        "dispatch",
+        "none",
+        "an approval of exactly this call, at most 10 s old",
+        without_approval,
+    ),
     Case(Code.NO_TARGET_FIX, "args.target", "absent: nothing was published", "a fresh fix", without_fix),
     Case(Code.NO_VALUE, "weather", "nothing", "is ok", unknown_value_in_a_guard, line=True),
 ]

@@ -15,6 +15,7 @@ from crew.contracts.refusal import Refusal
 from crew.contracts.site import Rules
 
 STALE = Refusal(code=Code.STATE_STALE, message="state is stale")
+UNAPPROVED = Refusal(code=Code.APPROVAL_MISSING, message="it waits", observed="none")
 QUESTION = Question(text="Shall I?", token="t1", unread=("twice",))
 WORDS = ("succeeded", "succeeded", "succeeded", "failed", "cancelled", "refused", "unknown")
 ENDING = frozenset({Phase.HALTING, Phase.CANCELLING}) | ENDS
@@ -71,8 +72,9 @@ class LooseShell:
             case ev.ValidatePlan():
                 yield ev.Validated(at_ns=at_ns, validation=self._validation())
             case ev.AskPerson():
+                assert self.state.question is not None
                 yield ev.Answered(at_ns=at_ns, token="another", yes=True)
-                yield ev.Answered(at_ns=at_ns, token=QUESTION.token, yes=self.chance.random() < 0.8)
+                yield ev.Answered(at_ns=at_ns, token=self.state.question.token, yes=self.chance.random() < 0.8)
             case ev.TakeLeases():
                 yield ev.Leased(at_ns=at_ns)
             case ev.Authorise():
@@ -97,9 +99,17 @@ class LooseShell:
         return self.chance.choice((good, good, good, asking, Validation(refusal=STALE), Validation()))
 
     def _decided(self, name: str, call: Call, purpose: Purpose) -> ev.Decided:
-        refusal = STALE if self.chance.random() < 0.15 else None
+        refusal = self.chance.choices((None, STALE, UNAPPROVED), (80, 12, 8))[0]
+        if purpose is Purpose.SAFE and refusal is UNAPPROVED:
+            refusal = STALE
         decision = Decision(
-            mission=self.state.id, step=name, call=call, purpose=purpose, at_ns=self._now_ns, refusal=refusal
+            mission=self.state.id,
+            step=name,
+            call=call,
+            purpose=purpose,
+            at_ns=self._now_ns,
+            refusal=refusal,
+            subject=name if purpose is Purpose.EXECUTE else "",
         )
         return ev.Decided(at_ns=self._now_ns, decision=decision)
 

@@ -319,22 +319,19 @@ def test_a_verdict_without_instance_and_refusal_is_no_plan(rules: Rules) -> None
     assert state.refusal.code is Code.MALFORMED_PLAN
 
 
-@pytest.mark.parametrize(("unread", "approves"), [(("twice",), ()), ((), ("dispatch",)), (("twice",), ("dispatch",))])
-def test_an_answer_gives_exactly_what_was_asked(
-    unread: tuple[str, ...], approves: tuple[str, ...], rules: Rules
-) -> None:
-    question = Question(text="Shall I?", token="t1", unread=unread, approves=approves)
+def test_an_answer_confirms_exactly_what_was_asked(rules: Rules) -> None:
+    question = Question(text="Shall I?", token="t1", unread=("twice",))
     verdict = ev.Validated(at_ns=AT_NS, validation=Validation(instance=b.matched(b.FULL, rules), question=question))
     asking, effects = after(b.received(b.SEARCH_AND_SEND, rules, phase=Phase.VALIDATING), rules, verdict)
     assert effects == (ev.AskPerson(),)
     assert after(asking, rules, ev.Answered(at_ns=AT_NS, token="t0", yes=True)) == (asking, ())
     agreed, effects = after(asking, rules, ev.Answered(at_ns=AT_NS, token="t1", yes=True))
     assert effects == (ev.TakeLeases(robots=("iris", "tb3")),)
-    assert (agreed.confirmed, agreed.approvals) == (bool(unread), approves)
+    assert (agreed.confirmed, agreed.approvals, agreed.question) == (True, (), None)
     declined, _ = after(asking, rules, ev.Answered(at_ns=AT_NS, token="t1", yes=False))
     assert declined.phase is Phase.REJECTED
     assert declined.refusal is not None
-    assert declined.refusal.code is (Code.UNREAD_WORDS if unread else Code.APPROVAL_MISSING)
+    assert declined.refusal.code is Code.UNREAD_WORDS
 
 
 def test_an_abort_asks_for_its_robots_first(rules: Rules) -> None:

@@ -20,8 +20,10 @@ from crew.contracts.site import Rules
 from tests.unit.contracts import build as b
 
 AT_NS = b.NOW_NS + 1
+UNAPPROVED = Refusal(code=Code.APPROVAL_MISSING, message="it waits", observed="none")
 REFUSED = Refusal(code=Code.STATE_STALE, message="state is stale")
 QUESTION = Question(text="Shall I?", token="t1", unread=("twice",))
+APPROVAL = Question(text="Shall I?", token="t1", step="takeoff", subject="s", asked_ns=AT_NS)
 EVENTS: tuple[type[ev.Event], ...] = get_args(ev.AnyEvent)
 GOLDEN = Path(__file__).parents[1] / "golden" / "mission-machine.mmd"
 PAGE = Path(crew.__file__).parents[1] / "docs" / "mission-machine.md"
@@ -49,7 +51,7 @@ def samples(event: type[ev.Event], rules: Rules) -> Iterator[ev.AnyEvent]:
             for token, yes in (("t1", True), ("t1", False), ("t2", True), ("", True)):
                 yield ev.Answered(at_ns=AT_NS, token=token, yes=yes)
         case ev.Decided:
-            for refusal in (None, REFUSED):
+            for refusal in (None, REFUSED, UNAPPROVED):
                 yield decided("takeoff", b.TAKEOFF, Purpose.EXECUTE, refusal)
                 yield decided("dispatch", b.DISPATCH, Purpose.EXECUTE, refusal)
                 yield decided("safe:searcher", b.LAND, Purpose.SAFE, refusal)
@@ -76,6 +78,11 @@ def states(phase: Phase, rules: Rules) -> Iterator[MissionState]:
     yield replace(bare, replans=1)
     deciding = b.with_step(bare, "takeoff", StepPhase.DECIDING)
     yield deciding
+    yield replace(b.with_step(bare, "takeoff", StepPhase.ASKING), question=APPROVAL)
+    yield replace(b.with_step(bare, "takeoff", StepPhase.ASKING), question=replace(APPROVAL, asked_ns=0))
+    yield replace(
+        b.with_step(b.done(bare, "takeoff"), "search", StepPhase.ASKING), question=replace(APPROVAL, step="search")
+    )
     for running in (StepPhase.SENT, StepPhase.RUNNING, StepPhase.CONFIRMING):
         yield b.with_step(bare, "takeoff", running)
     ready = b.done(bare, "takeoff", "search", "report")

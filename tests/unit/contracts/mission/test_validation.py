@@ -99,14 +99,14 @@ def test_entry_guards_hold_at_the_first_dispatch_and_are_done_with_then(rules: R
     assert b.judged(b.SEARCH_AREA, b.done(fresh, "takeoff"), b.world(b.iris(airborne=True), moving), strict).allowed
 
 
-# --- questions and approvals
+# --- questions
 
 
 def test_unread_words_become_a_question_about_this_plan(rules: Rules) -> None:
     found = b.verdict("search the area twice", b.SEARCH_PLAN, rules)
     assert found.refusal is None
     assert found.question is not None
-    assert (found.question.unread, found.question.approves) == (("twice",), ())
+    assert found.question.unread == ("twice",)
     assert "'twice'" in found.question.text
     assert all(str(call) in found.question.text for call in b.SEARCH_PLAN.steps)
 
@@ -134,23 +134,12 @@ def test_unread_words_hide_no_other_refusal(rules: Rules) -> None:
     assert found.refusal.code is Code.PRECONDITION_FAILED
 
 
-def test_a_step_that_wants_approval_is_asked_for_by_name(rules: Rules) -> None:
+def test_a_step_that_wants_approval_is_asked_for_in_its_turn_and_not_before(rules: Rules) -> None:
     strict = b.with_approval(rules, "search_and_dispatch", "dispatch")
     found = b.verdict(b.SEARCH_AND_SEND, b.FULL, strict)
-    assert found.question is not None
-    assert found.question.approves == ("dispatch",)
-    mission = replace(b.before_dispatch(strict), approvals=())
-    world = b.world(fix=b.victim())
-    assert b.refused(b.DISPATCH, mission, world, strict).code is Code.APPROVAL_MISSING
-    assert b.judged(b.DISPATCH, replace(mission, approvals=("dispatch",)), world, strict).allowed
-    assert not b.judged(b.DISPATCH, replace(mission, approvals=("search",)), world, strict).allowed
-
-
-def test_both_reasons_to_ask_make_one_question(rules: Rules) -> None:
-    strict = b.with_approval(rules, "search_only", "search")
-    question = b.verdict("search the area twice", b.SEARCH_PLAN, strict).question
-    assert question is not None
-    assert (question.unread, question.approves) == (("twice",), ("search",))
+    assert (found.refusal, found.question) == (None, None)
+    flying = b.rejected(b.SEARCH_AND_SEND, b.FULL, strict, b.world(b.iris(airborne=True)))
+    assert flying.code is Code.PRECONDITION_FAILED, "everything else is judged as if it were approved"
 
 
 def test_what_the_request_is_refused_for_names_the_request_and_not_a_step(rules: Rules) -> None:
