@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from functools import cache
 from typing import Any
 
+from crew.actors.robot import lost
 from crew.actors.robot.actor import RobotActor
 from crew.adapter import Adapter, Place, Reading, StopLatch
 from crew.bus.fabric import MemoryFabric
@@ -300,6 +301,7 @@ async def robot_stage(
 
     Unless it is `alone`, an orchestrator of epoch 0 is heard. `stop_first` yields before a vehicle was found, stopped.
     """
+    lost.LOOK_EVERY_S = 0.01
     rules = air_ground()
     spec = rules.crew.robot("tb3")
     assert spec is not None
