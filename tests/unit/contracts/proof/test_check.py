@@ -1,10 +1,21 @@
 """What a check finds in kinds and contracts that are wrong in ways of their own, and how it bears what is too big."""
 
+from collections.abc import Callable
+
 import pytest
 from msgspec.structs import replace
 
+from crew.contracts.codes import Code
 from crew.contracts.contract import CallPattern
+from crew.contracts.decision import Decision
+from crew.contracts.gate.approval import approved
+from crew.contracts.gate.authorize import Gate
+from crew.contracts.mission_state import Approval, MissionState, Purpose
+from crew.contracts.plan import Call
 from crew.contracts.proof import Finding, Report, Stage, check, check_all
+from crew.contracts.proof.world import NOW_NS
+from crew.contracts.site import Rules
+from crew.contracts.snapshot import Snapshot
 from tests.unit.contracts.build import air_ground, with_approval
 from tests.unit.contracts.proof.lab import STOP, chain, kind, rules, skill
 
@@ -87,10 +98,41 @@ def test_steps_of_one_robot_without_an_order_are_tried_in_every_order() -> None:
     assert report.plans == 6
 
 
-def test_an_approval_is_asked_for_before_anything_moves() -> None:
-    report = check(with_approval(air_ground(), "dispatch_only", "dispatch"), "dispatch_only")
-    assert report.proved
-    assert report.states > check(air_ground(), "dispatch_only").states, "asking, and two answers"
+class Rash(Gate):
+    """A gate that counts a step as approved although something about its approval is wrong."""
+
+    def __init__(self, forgives: Callable[[tuple[Approval, ...]], bool]) -> None:
+        super().__init__()
+        self._forgives = forgives
+
+    def authorize(
+        self, call: Call, mission: MissionState, world: Snapshot, rules: Rules, now_ns: int, purpose: Purpose
+    ) -> Decision:
+        decision = super().authorize(call, mission, world, rules, now_ns, purpose)
+        missing = decision.refusal is not None and decision.refusal.code is Code.APPROVAL_MISSING
+        if not missing or not self._forgives(mission.approvals):
+            return decision
+        given = approved(call, decision.step, mission, world, rules, now_ns)
+        return super().authorize(call, replace(mission, approvals=given), world, rules, now_ns, purpose)
+
+
+RASH: dict[str, Callable[[tuple[Approval, ...]], bool]] = {
+    "nobody approved the step": lambda given: not given,
+    "another call was approved": lambda given: any(a.subject == "another" for a in given),
+    "the approval is old": lambda given: any(a.at_ns < NOW_NS for a in given),
+}
+
+
+def test_a_step_that_wants_approval_is_proved_with_it() -> None:
+    assert check(with_approval(air_ground(), "dispatch_only", "dispatch"), "dispatch_only").proved
+
+
+@pytest.mark.parametrize("mishap", RASH)
+def test_a_gate_that_is_rash_about_approvals_is_found(mishap: str) -> None:
+    strict = with_approval(air_ground(), "dispatch_only", "dispatch")
+    report = check(strict, "dispatch_only", gate=Rash(RASH[mishap]), repair=False)
+    assert not report.proved
+    assert any(mishap in finding.message for finding in report.findings)
 
 
 def test_progress_is_told() -> None:
