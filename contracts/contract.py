@@ -9,7 +9,7 @@ from functools import cached_property
 
 import msgspec
 
-from crew.contracts.plan import SlotValue
+from crew.contracts.plan import SlotValue, digest
 from crew.contracts.skill import FluentLiteral
 
 
@@ -127,6 +127,11 @@ class Contract(msgspec.Struct, frozen=True, kw_only=True, dict=True):
     deadline_s: float = 600.0
     preempts: bool = False
     source: str = ""
+
+    @cached_property
+    def digest(self) -> str:
+        """Of everything that it says; not of where its file lies."""
+        return digest(msgspec.structs.replace(self, source=""))
 
     @cached_property
     def _step_by_name(self) -> dict[str, Step]:

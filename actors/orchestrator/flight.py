@@ -194,7 +194,7 @@ class Dispatcher:
             expires_ns=issued_ns + seconds_ns(EXPIRES_S),
             args_digest=digest(dict(effect.call.args)),
             plan_digest=digest(mission.plan),
-            contract_digest=digest(contract),
+            contract_digest=contract.digest,
             request_id=mission.request_id,
             approval=effect.approval,
         )

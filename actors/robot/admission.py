@@ -34,7 +34,7 @@ class Admission:
         self._robot, self._boot_id, self._rules = robot, boot_id, rules
         self._key = orchestrator_key
         self._second_check = second_check
-        self._contracts = {digest(contract) for contract in rules.contracts.values()}
+        self._contracts = {contract.digest for contract in rules.contracts.values()}
         self._fence = 0
         self._spent: dict[tuple[int, str], list[int]] = {}
 

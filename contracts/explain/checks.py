@@ -7,6 +7,7 @@ import msgspec
 from crew.contracts.codes import Group
 from crew.contracts.contract import Condition, Contract
 from crew.contracts.explain.case import CallCase, PlanCase
+from crew.contracts.gate.approval import APPROVAL_S
 from crew.contracts.gate.arguments import bounds, names_for
 from crew.contracts.gate.guard import SECOND_NS, Scope, Verdict, age, evaluate, robot_fluent_is
 from crew.contracts.gate.scope import scope_of, skill_of
@@ -179,8 +180,11 @@ def _limits(case: CallCase, contract: Contract) -> Iterator[Check]:
     spent_s = (case.now_ns - case.mission.started_ns) / SECOND_NS
     allowed = f"{contract.deadline_s:g} s"
     yield Check(group=Group.STATE, what="within the deadline", observed=f"{spent_s:.1f} s spent", allowed=allowed)
-    if case.step in case.mission.approvals:
-        yield Check(group=Group.STATE, what=f"a person approved {case.step}")
+    for approval in case.mission.approvals:
+        if approval.step == case.step:
+            given = f"{(case.now_ns - approval.at_ns) / SECOND_NS:.1f} s ago"
+            limit = f"exactly this call, at most {APPROVAL_S:g} s ago"
+            yield Check(group=Group.STATE, what=f"a person approved {case.step}", observed=given, allowed=limit)
 
 
 def _values(case: CallCase) -> Iterator[Check]:

@@ -7,6 +7,7 @@ from msgspec.structs import replace
 from crew.contracts.codes import Code
 from crew.contracts.explain.case import CallCase, Case, PlanCase
 from crew.contracts.explain.edit import LARGE, MIDDLE, SMALL, Edit
+from crew.contracts.gate.approval import approved
 from crew.contracts.gate.scope import pins_of
 from crew.contracts.mission.effect import somewhere
 from crew.contracts.mission_state import ACTIVE, Phase, StepPhase, StepRecord
@@ -164,8 +165,10 @@ def _in_time(case: Case, refusal: Refusal) -> Iterator[Edit]:
 
 
 def _approved(case: Case, refusal: Refusal) -> Iterator[Edit]:
-    mission = replace(case.mission, approvals=(*case.mission.approvals, refusal.field.rpartition("].")[2]))
-    yield Edit(f"a person's approval of {refusal.field}", SMALL, replace(case, mission=mission))
+    if isinstance(case, CallCase):
+        given = approved(case.call, case.step, case.mission, case.world, case.rules, case.now_ns)
+        mission = replace(case.mission, approvals=given)
+        yield Edit(f"a person's approval of {refusal.field}", SMALL, replace(case, mission=mission))
 
 
 def _confirmed(case: Case, refusal: Refusal) -> Iterator[Edit]:

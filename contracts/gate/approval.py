@@ -36,7 +36,7 @@ def subject_of(call: Call, step: str, mission: MissionState, world: Snapshot, ru
             step,
             call,
             mission.plan,
-            rules.contracts[mission.instance.contract],
+            rules.contracts[mission.instance.contract].digest,
             values if isinstance(values, Mapping) else str(values.code),
             condition_of(call.robot, world),
         )

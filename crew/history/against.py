@@ -5,6 +5,7 @@ from collections.abc import Iterator
 import msgspec
 from msgspec.structs import replace
 
+from crew.contracts.gate.approval import approved
 from crew.contracts.gate.authorize import Gate
 from crew.contracts.language.lexicon import lexicon_of
 from crew.contracts.language.mention import Reading
@@ -117,6 +118,9 @@ class _Again:
 
     def _decision(self, verdict: Verdict, record: DecisionRecord) -> tuple[_Said, _Said]:
         then, state = record.decision, self._state(verdict.mission)
+        if any(given.step == then.step for given in state.approvals):
+            yes = approved(then.call, then.step, state, record.world, self._rules, then.at_ns)
+            state = replace(state, approvals=yes)
         now = self._gate.authorize(then.call, state, record.world, self._rules, then.at_ns, then.purpose)
         return _of(then.refusal, (then.step, dict(then.places))), _of(now.refusal, (now.step, dict(now.places)))
 
@@ -141,7 +145,7 @@ def _of_validation(validation: Validation) -> _Said:
     if validation.refusal is not None or validation.instance is None:
         return _of(validation.refusal, None)
     question, instance = validation.question, validation.instance
-    asked = None if question is None else (question.unread, question.approves)
+    asked = None if question is None else question.unread
     words = f"accepted as {instance.contract}: {', '.join(f'{r} {n}' for r, n in instance.roles.items())}"
     orders = "; ".join(f"{s.step} after {', '.join(s.after)}" for s in instance.steps if s.after)
     sentence = (

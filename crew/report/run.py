@@ -152,7 +152,7 @@ def origin(history: History, report: VerifyReport) -> Html:
         ("journal", f"{report.records} records, head {report.head or 'unknown'}"),
         ("rules", run.rules_digest),
         *((f"kind {name}", value) for name, value in run.rules.kinds.items()),
-        *((f"contract {name}", digest(contract)) for name, contract in run.rules.contracts.items()),
+        *((f"contract {name}", contract.digest) for name, contract in run.rules.contracts.items()),
     ]
     return tag("section", tag("h2", "Where it is from"), tag("dl", list(_pairs(dict(facts))), class_="mono"))
 

@@ -111,7 +111,7 @@ async def _interleave(bus: ZenohBus, raw: RawPing, rounds: int) -> tuple[list[fl
     await cards.changed()
     boot = cards.take()[0].message.boot_id
     publisher = bus.publisher(KEYS.act(ROBOT, "stop"), qos=Qos.ACTUATION)
-    contract = digest(load_rules("air_ground").contracts["dispatch_only"])
+    contract = load_rules("air_ground").contracts["dispatch_only"].digest
     payload = encode(permit(_dispatch(1, boot, contract), KEYS.crew, KEY))[0]
     bus.put(KEYS.heartbeat(), permit(_beat(0), KEYS.crew, KEY), qos=Qos.EVENT)
     await asyncio.sleep(0.5)  # the robot looks for heartbeats every 0.1 s

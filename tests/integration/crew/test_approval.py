@@ -37,7 +37,7 @@ def desk(tmp_path_factory: pytest.TempPathFactory) -> Desk:
 
 @pytest.fixture(scope="module")
 def up(desk: Desk) -> Iterator[Up]:
-    with desk.up("guarded.yaml") as up:
+    with desk.up(str(desk.folder / "guarded.yaml")) as up:
         yield up
 
 

@@ -132,7 +132,7 @@ async def test_while_latched_nothing_is_accepted_by_anybody(watch: Watch, desk: 
         expires_ns=now_ns + seconds_ns(60.0),
         args_digest=digest(args),
         plan_digest="",
-        contract_digest=digest(load_rules("air_ground").contracts["dispatch_only"]),
+        contract_digest=load_rules("air_ground").contracts["dispatch_only"].digest,
     )
     watch.put(watch.keys.act("tb3", "navigate_to"), forged, qos=Qos.ACTUATION)
     await watch.until(lambda: any(e.what == "permit_refused" for e in watch.robot_events), why="it says so")

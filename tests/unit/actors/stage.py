@@ -205,7 +205,7 @@ class RobotStage:
             "expires_ns": now_ns + seconds_ns(2.0),
             "args_digest": digest(dict(args)),
             "plan_digest": "",
-            "contract_digest": digest(self.rules.contracts["dispatch_only"]),
+            "contract_digest": self.rules.contracts["dispatch_only"].digest,
         }
         return permit(Dispatch(**{**sound, **changes}), self.keys.crew, self.orchestrator)
 

@@ -184,12 +184,12 @@ def test_what_no_small_change_mends_is_not_mended() -> None:
     assert sent.steps["takeoff"].sequence == 0
 
 
-def test_a_change_that_still_needs_a_person_says_so() -> None:
+def test_a_change_of_a_plan_whose_step_will_wait_for_approval_is_offered_all_the_same() -> None:
     rules = with_approval(RULES, "dispatch_only", "dispatch")
     mission = received(SEND_TO_BASE, rules, phase=Phase.VALIDATING)
     change = smallest_change(PlanCase(plan=to_base("tb4"), mission=mission, world=world(), rules=rules, now_ns=NOW_NS))
     assert change is not None
-    assert "approval" in change.question
+    assert change.question == "", "a person is asked in the step's turn, not about the plan"
 
 
 def test_another_robot_of_the_same_kind_is_offered() -> None:

@@ -1,11 +1,13 @@
 """What an allowed call passed: in the gate's order, with the values that it looked at; and the words behind it."""
 
 import pytest
+from msgspec.structs import replace
 
 from crew.contracts.codes import Group
 from crew.contracts.explain.case import CallCase, PlanCase
 from crew.contracts.explain.checks import Check, passed_checks, plan_checks
 from crew.contracts.explain.words import words_involved
+from crew.contracts.gate.approval import approved
 from crew.contracts.gate.guard import SECOND_NS
 from crew.contracts.mission_state import Phase, Purpose
 from crew.contracts.plan import Call
@@ -72,12 +74,13 @@ def test_a_safe_call_is_not_measured_by_the_request() -> None:
 
 def test_an_approval_that_was_given_is_named() -> None:
     rules = with_approval(RULES, "search_and_dispatch", "search")
-    mission = done(executing(SEARCH_AND_SEND, FULL, rules, approvals=("search",)), "takeoff")
+    mission = done(executing(SEARCH_AND_SEND, FULL, rules), "takeoff")
+    now = world(iris(airborne=True))
     asked = CallCase(
         call=SEARCH_AREA,
         purpose=Purpose.EXECUTE,
-        mission=mission,
-        world=world(iris(airborne=True)),
+        mission=replace(mission, approvals=approved(SEARCH_AREA, "search", mission, now, rules, NOW_NS)),
+        world=now,
         rules=rules,
         now_ns=NOW_NS,
     )

@@ -191,3 +191,9 @@ def test_of_two_steps_that_wait_one_is_asked_for_at_a_time(strict: Rules) -> Non
 def test_a_robot_whose_step_is_asked_for_gets_no_other(strict: Rules) -> None:
     _, asking, _ = decided(deciding(strict), strict)
     assert enabled(asking) == ("land",), "the drone's own step goes on"
+
+
+def test_where_a_contracts_file_lies_is_no_part_of_what_is_approved(strict: Rules) -> None:
+    moved = {name: replace(c, source=f"/elsewhere/{name}.yaml") for name, c in strict.contracts.items()}
+    here, there = (decided(deciding(rules), rules)[0].subject for rules in (strict, replace(strict, contracts=moved)))
+    assert here == there
