@@ -5,7 +5,6 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 from crew.contracts.gate.guard import age
-from crew.contracts.plan import digest
 from crew.contracts.refusal import show
 from crew.contracts.snapshot import Point, RobotState, Snapshot
 from crew.history.history import History
