@@ -10,6 +10,7 @@ SLOT_Y = 420.0
 _TONES = {
     StepPhase.PENDING: "pending",
     StepPhase.DECIDING: "hold",
+    StepPhase.ASKING: "hold",
     StepPhase.SENT: "run",
     StepPhase.RUNNING: "run",
     StepPhase.CONFIRMING: "run",

@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 from crew.actors.recorder.entry import LaneChange
 from crew.contracts.mission.record import SAFE
-from crew.contracts.mission_state import ACTIVE, ENDS, MissionState, Phase, StepPhase
+from crew.contracts.mission_state import ACTIVE, ENDS, OPEN, MissionState, Phase, StepPhase
 from crew.contracts.site import Rules
 
 MISSION_LANE = "mission"
@@ -121,6 +121,6 @@ def doing(robot: str, mission: MissionState) -> _Wish:
         return _Wish(1 if over else 4, ended, over)
     if not over and mission.phase is Phase.WAITING:
         return _Wish(2, LEASED)
-    if mission.phase is Phase.EXECUTING and any(r.phase in (StepPhase.PENDING, StepPhase.DECIDING) for r in own):
+    if mission.phase is Phase.EXECUTING and any(r.phase in OPEN for r in own):
         return _Wish(3, HELD)
     return _Wish(0, "", over)

@@ -13,6 +13,7 @@ MAX_STEPS = 40
 _WORDS = {
     StepPhase.PENDING: "not yet",
     StepPhase.DECIDING: "at the gate",
+    StepPhase.ASKING: "**waits for approval**",
     StepPhase.SENT: "sent",
     StepPhase.RUNNING: "**running**",
     StepPhase.CONFIRMING: "looking for its effect",

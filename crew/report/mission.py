@@ -214,6 +214,7 @@ _ENDED = frozenset({StepPhase.SUCCEEDED, StepPhase.REFUSED, StepPhase.FAILED, St
 _SAID = {
     StepPhase.PENDING: "never sent",
     StepPhase.DECIDING: "being decided",
+    StepPhase.ASKING: "waiting for approval",
     StepPhase.SUCCEEDED: "done, effect observed",
     StepPhase.SENT: "sent, no answer recorded",
     StepPhase.RUNNING: "running when the journal ends",
