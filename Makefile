@@ -27,7 +27,8 @@ bench: .venv/.ready  ## measure speed and latency
 soak: .venv/.ready  ## the long tests: those marked soak, and every property with many more examples
 	$(BIN)/python -m pytest -m "soak or hypothesis" --hypothesis-profile=soak $(ARGS)
 
-study: .venv/.ready  ## the evaluation (needs crew eval, which this version does not have yet)
+study: .venv/.ready  ## the evaluation: accuracy and faults of air_ground; then crew eval, if this version has it
+	$(BIN)/python -m crew.study.air_ground --out docs/study --runs runs/study
 	@$(BIN)/crew eval --help >/dev/null 2>&1 || { echo "crew eval is not part of this version: no study was run" >&2; exit 2; }
 	$(BIN)/crew eval $(CREW) --arms all --planner embedded --seed 0 --out runs/study $(ARGS)
 

@@ -1,8 +1,8 @@
 """What a robot actor asks of a vendor's adapter. Adapters implement kinds; they never see the simulation's truth."""
 
 import threading
-from collections.abc import Callable, Mapping
-from typing import Any, Protocol
+from collections.abc import AsyncIterator, Callable, Mapping
+from typing import Any, Protocol, runtime_checkable
 
 import msgspec
 
@@ -100,6 +100,34 @@ class Adapter(Protocol):
 
     def on_traffic(self, callback: Callable[[], None]) -> None:
         """Call back (on the loop) after received traffic was handled."""
+        ...
+
+
+class Check(msgspec.Struct, frozen=True):
+    """One item of a hardware checklist: what, whether it is as it must be, observed against allowed, what to do."""
+
+    what: str
+    ok: bool
+    observed: str
+    allowed: str
+    fix: str = ""
+
+    def __str__(self) -> str:
+        if self.ok:
+            return f"{self.what}: {self.observed}"
+        return f"{self.what}: {self.observed}; allowed: {self.allowed}{f'; {self.fix}' if self.fix else ''}"
+
+
+@runtime_checkable
+class Checklist(Protocol):
+    """An adapter that can ask a real robot what a person would check before it may be commanded."""
+
+    async def connect(self) -> None: ...
+
+    async def close(self) -> None: ...
+
+    def checklist(self) -> AsyncIterator[Check]:
+        """Every item, as it is found out. Sets nothing and moves nothing."""
         ...
 
 

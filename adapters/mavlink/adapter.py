@@ -1,11 +1,12 @@
 """The adapter that a robot actor owns: one vehicle, one skill at a time, a stop that needs no event loop."""
 
 import asyncio
-from collections.abc import Callable, Mapping
+from collections.abc import AsyncIterator, Callable, Mapping
 from typing import cast
 
-from crew.adapter import AdapterConfig, Place, Reading, StopLatch
+from crew.adapter import AdapterConfig, Check, Place, Reading, StopLatch
 from crew.adapters.mavlink.braking import brake
+from crew.adapters.mavlink.checklist import walk
 from crew.adapters.mavlink.flavours.flavour import FlightFlavour
 from crew.adapters.mavlink.link import LinkCounts
 from crew.adapters.mavlink.options import QuadcopterOptions, RoverOptions, VehicleOptions, read_options
@@ -116,6 +117,12 @@ class MavlinkAdapter:
             await self._ended()
         finally:
             self._end_safe(run.permit)
+
+    async def checklist(self) -> AsyncIterator[Check]:
+        """What a person would check before a real vehicle may be commanded. Connect first."""
+        self._ready()
+        async for check in walk(self._vehicle, self._options):
+            yield check
 
     def halt(self) -> None:
         """Latch, then stop: from any thread, at once, without the event loop.

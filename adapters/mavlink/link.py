@@ -1,4 +1,4 @@
-"""The UDP link to one vehicle: an unblocked socket, a parser for each peer, counters. Decides nothing about motion."""
+"""The UDP link to one vehicle: an unblocked socket, a parser, counters. Decides nothing about motion."""
 
 import asyncio
 import errno
@@ -13,11 +13,12 @@ from pymavlink.dialects.v20 import common as mavlink
 
 from crew.adapter import StopLatch
 from crew.adapters.mavlink.endpoint import Address, Endpoint
+from crew.adapters.mavlink.signing import SigningState, VerifyingParser
 from crew.adapters.mavlink.writer import Writer
 from crew.clock import Clock
 from crew.errors import AdapterError
 
-MAX_PEERS = 8
+BUFFER_BYTES = 1 << 20
 MAX_BATCH = 256
 """Datagrams read before the loop gets its turn again."""
 SETTLING_TURNS = 6
@@ -50,6 +51,7 @@ class UdpLink:
         wanted: Callable[[Any], bool],
         handle: Callable[[Any], None],
         counts: LinkCounts,
+        signing: SigningState | None = None,
     ) -> None:
         self._endpoint = endpoint
         self._clock = clock
@@ -57,7 +59,8 @@ class UdpLink:
         self._handle = handle
         self._socket: socket.socket | None = None
         self._loop: asyncio.AbstractEventLoop | None = None
-        self._parsers: dict[Address, Any] = {}
+        self._parser: Any = mavlink.MAVLink(None) if signing is None else VerifyingParser(signing)
+        self._parser.robust_parsing = True
         self._destination: Address | None = None if endpoint.listen else endpoint.address
         self._system: int | None = None
         self._vehicle: Address | None = None
@@ -65,7 +68,10 @@ class UdpLink:
         self._turns = 0
         self._on_settled: list[Callable[[], None]] = []
         self.counts = counts
+        self._signing = signing
         self.writer = Writer(latch, self._transmit)
+        if signing is not None:
+            signing.sign(self.writer.encoder)
 
     @property
     def reachable(self) -> bool:
@@ -76,10 +82,15 @@ class UdpLink:
         """Call back once a batch was handled and the tasks that it woke have had their turns."""
         self._on_settled.append(callback)
 
+    def unsigned_text(self) -> str:
+        """How many frames were refused for their signature, in words; empty on a link that is not signed."""
+        return "" if self._signing is None else f", {self._signing.rejected} unsigned or wrongly signed"
+
     def open(self) -> None:
         """Bind and start reading. Raises AdapterError `port_in_use` naming the port."""
         self._loop = asyncio.get_running_loop()
         sock = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+        sock.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, BUFFER_BYTES)
         sock.setblocking(False)
         try:
             if self._endpoint.listen:
@@ -124,11 +135,10 @@ class UdpLink:
         self._settle()
 
     def _take(self, data: bytes, address: Address) -> None:
-        parser = self._parser(address)
-        if parser is None:
+        if self._vehicle not in (None, address):
             self.counts.ignored += 1
             return
-        messages = parse_datagram(parser, data)
+        messages = parse_datagram(self._parser, data)
         if messages is None:
             self.counts.malformed += 1
             return
@@ -137,15 +147,6 @@ class UdpLink:
             self.counts.ignored += 1
         for message in mine:
             self._handle(message)
-
-    def _parser(self, address: Address) -> Any:
-        if address not in self._parsers:
-            if len(self._parsers) >= MAX_PEERS:
-                return None
-            parser = mavlink.MAVLink(None)
-            parser.robust_parsing = True
-            self._parsers[address] = parser
-        return self._parsers[address]
 
     def _is_mine(self, message: Any, address: Address) -> bool:
         if self._vehicle is None:

@@ -17,6 +17,8 @@ class VehicleOptions(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_f
 
     signing_key: str = ""
     """File with the 32 bytes (64 hexadecimal digits) that the link is signed with; without it the link is unsigned."""
+    allow_unsigned: bool = False
+    """Let the checklist pass without a signed link: for a cable, not for a radio."""
     system_id: Annotated[int, Meta(ge=1, le=254)] | None = None
     """MAVLink system; without it, the first vehicle of the right kind that is heard."""
     connect_timeout_s: Positive = 15.0
@@ -27,6 +29,8 @@ class VehicleOptions(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_f
 
 class QuadcopterOptions(VehicleOptions, frozen=True, kw_only=True, forbid_unknown_fields=True):
     cruise_mps: Positive = 3.0
+    ceiling_m: Positive = 10.0
+    """The adapter's own limit of height above home."""
     arrive_m: Positive = 0.5
     """How far from a point, and from a height, still counts as there."""
     fov_x_deg: Degrees = 80.0

@@ -40,6 +40,8 @@ def fitness_fault(telemetry: Telemetry, flavour: Flavour, min_battery_percent: f
     """Why the vehicle may not be set in motion; empty if it may."""
     if telemetry.age_s(telemetry.home) > HOME_MAX_AGE_S:
         return "no fresh home position"
+    if telemetry.home_jump:
+        return telemetry.home_jump
     battery = telemetry.battery_percent
     if battery is None:
         return "battery unknown"

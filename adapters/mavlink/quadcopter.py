@@ -97,7 +97,16 @@ class QuadcopterSkills:
 
         await run.until(arrived, lambda: self._gap_m(x_m, y_m, height_m), f"fly to ({x_m:.1f}, {y_m:.1f})")
 
+    def _check_height(self, height_m: float) -> None:
+        ceiling_m = self._options.ceiling_m
+        if self._vehicle.config.geofence and not 0.0 < height_m <= ceiling_m:
+            raise AdapterError(
+                f"{self._vehicle.config.robot}: height {height_m:g} m is not within 0 and {ceiling_m:g} m",
+                code="out_of_bounds",
+            )
+
     async def _take_off(self, run: Run, height_m: float) -> None:
+        self._check_height(height_m)
         await check_failsafes(self._flavour, self._vehicle.parameters)
         home = await self._vehicle.fresh_home()
         commands = self._flavour.takeoff(height_m, home.amsl_m)
@@ -159,8 +168,12 @@ class QuadcopterSkills:
         self._swept = True
 
     def _plan(self, zone: Zone, height_m: float) -> Sweep:
-        if zone.x_min > zone.x_max or zone.y_min > zone.y_max:
-            raise AdapterError("search_target: a zone's minimum lies above its maximum", code="bad_argument")
+        if not (zone.x_min < zone.x_max and zone.y_min < zone.y_max):
+            raise AdapterError(
+                f"search_target: the zone x [{zone.x_min:g}, {zone.x_max:g}], y [{zone.y_min:g}, {zone.y_max:g}] "
+                "is a line or a point, or has a minimum above its maximum",
+                code="bad_argument",
+            )
         options, motion = self._options, self._motion()
         above_m = max(height_m - options.target_height_m, 0.5)
         along_m = footprint_m(above_m, options.fov_y_deg)
@@ -205,6 +218,7 @@ class QuadcopterSkills:
 
     async def _leg(self, run: Run, x_m: float, y_m: float, height_m: float, heading_rad: float | None) -> None:
         check_inside(self._vehicle.config, x_m, y_m, "way-point")
+        self._check_height(height_m)
         place = self._vehicle.place(x_m, y_m, height_m)
         commands = self._flavour.go_to(place, self._options.cruise_mps, heading_rad)
         await run.go(commands, self._flavour.travel_modes, (x_m, y_m))

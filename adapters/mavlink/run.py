@@ -21,7 +21,8 @@ REASON_WINDOW_S = 3.0
 """A takeover's reason is looked for this long before the heartbeat that showed it."""
 OTHER_AIM_M = 1.5
 """A target further than this from the one that was sent last is somebody else's."""
-AIM_GRACE_S = 1.5
+AIM_GRACE_S = 1.2
+"""For the target to become known, and for a mode that explains another one to show in the heartbeat."""
 HANDS_OFF = frozenset({"mode_changed", "commanded_by_other", "failsafe"})
 """Codes of failures after which the vehicle is another's to command."""
 
@@ -47,6 +48,7 @@ class Run:
         self._expectation: Expectation | None = None
         self._aim: tuple[float, float] | None = None
         self._aimed_ns = 0
+        self._other_ns: int | None = None
 
     async def command(self, *commands: Command, leads_to: Modes | None = None) -> None:
         """Send commands in order, each accepted before the next; then hold the vehicle to the modes they lead to."""
@@ -61,6 +63,7 @@ class Run:
         """Send the vehicle to a point (world ENU, metres), and hold it to that."""
         self._aim = None
         await self.command(*commands, leads_to=modes)
+        self._other_ns = None
         self._aim, self._aimed_ns = aim, self.vehicle.clock.now_ns()
 
     def check(self) -> None:
@@ -142,10 +145,15 @@ class Run:
 
     def _check_aim(self) -> None:
         """The vehicle says where it is going; a target that was not sent from here means another commands it."""
-        told, aim = self.vehicle.telemetry.aim, self._aim
+        told, aim, now_ns = self.vehicle.telemetry.aim, self._aim, self.vehicle.clock.now_ns()
         if told is None or aim is None or told.stamp_ns < self._aimed_ns + seconds_ns(AIM_GRACE_S):
             return
-        if math.dist(told.value, aim) > OTHER_AIM_M:
+        awaited = self._expectation is not None and self.vehicle.mode() not in self._expectation.modes
+        if awaited or math.dist(told.value, aim) <= OTHER_AIM_M:
+            self._other_ns = None
+            return
+        self._other_ns = self._other_ns or now_ns
+        if now_ns - self._other_ns > seconds_ns(AIM_GRACE_S):
             raise AdapterError(
                 f"{self.vehicle.config.robot}: it is going to ({told.value[0]:.1f}, {told.value[1]:.1f}) and was sent "
                 f"to ({aim[0]:.1f}, {aim[1]:.1f}); another station commands it",

@@ -115,6 +115,8 @@ class Telemetry:
         self.rebooted = False
         self.dropped = 0
         """Messages left out because a number in them was none."""
+        self.positions = 0
+        """Positions that were received."""
         self.texts = StatusLog()
         self.track = PoseTrack()
         self.sightings: list[Sighting] = []
@@ -221,6 +223,7 @@ class Telemetry:
         self.motion = self._sample(
             Motion(x_m, y_m, height_m, message.vy / 100.0, message.vx / 100.0, -message.vz / 100.0)
         )
+        self.positions += 1
         self.track.add_position(message.time_boot_ms / 1e3, x_m, y_m, height_m)
 
     def _take_attitude(self, message: Any) -> None:

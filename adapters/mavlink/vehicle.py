@@ -16,6 +16,7 @@ from crew.adapters.mavlink.link import LinkCounts, UdpLink
 from crew.adapters.mavlink.options import VehicleOptions
 from crew.adapters.mavlink.parameter import Parameters
 from crew.adapters.mavlink.preflight import HOME_MAX_AGE_S, fitness_fault, link_fault
+from crew.adapters.mavlink.signing import SigningState, read_key
 from crew.adapters.mavlink.telemetry import Home, Telemetry
 from crew.clock import SECOND_NS, Clock, seconds_ns
 from crew.errors import AdapterError
@@ -40,7 +41,9 @@ class Vehicle:
         self.clock = clock
         self.frame = WorldFrame(config.origin)
         self.telemetry = Telemetry(clock, self.frame)
-        self.link = UdpLink(parse_endpoint(config.connection), clock, latch, self._wanted, self._take, counts)
+        key = read_key(config.robot, options.signing_key) if options.signing_key else None
+        signing = None if key is None else SigningState(key)
+        self.link = UdpLink(parse_endpoint(config.connection), clock, latch, self._wanted, self._take, counts, signing)
         self._options = options
         self._found: Any = None
         self._flavour: Flavour | None = None
@@ -51,6 +54,11 @@ class Vehicle:
     @property
     def found(self) -> bool:
         return self._flavour is not None
+
+    @property
+    def system(self) -> int:
+        """The vehicle's MAVLink system id."""
+        return int(_known(self._found).get_srcSystem())
 
     @property
     def flavour(self) -> Flavour:
@@ -186,7 +194,7 @@ class Vehicle:
         return AdapterError(
             f"{self.config.robot}: no heartbeat of {who} on {self.config.connection} within "
             f"{self._options.connect_timeout_s:g} s ({counts.received} datagrams came, {counts.ignored} of others, "
-            f"{counts.malformed} damaged); is the vehicle sending there?",
+            f"{counts.malformed} damaged{self.link.unsigned_text()}); is the vehicle sending there?",
             code="no_vehicle",
         )
 

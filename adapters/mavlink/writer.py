@@ -26,7 +26,7 @@ class Writer:
     def __init__(self, latch: StopLatch, transmit: Callable[[bytes], None]) -> None:
         self._latch = latch
         self._transmit = transmit
-        self._encoder = mavlink.MAVLink(None, srcSystem=GROUND_SYSTEM, srcComponent=GROUND_COMPONENT)
+        self.encoder = mavlink.MAVLink(None, srcSystem=GROUND_SYSTEM, srcComponent=GROUND_COMPONENT)
 
     def send(self, message: Any, permit: Permit | None = None) -> None:
         """Send one message. Raises Latched, or the permit's reason, when it may cause motion and must not."""
@@ -48,8 +48,8 @@ class Writer:
             raise Latched(f"{message.get_type()} not sent: the stop is latched; reset the robot first")
 
     def _write(self, message: Any) -> None:
-        data = bytes(message.pack(self._encoder))
-        self._encoder.seq = (self._encoder.seq + 1) % 256
+        data = bytes(message.pack(self.encoder))
+        self.encoder.seq = (self.encoder.seq + 1) % 256
         self._transmit(data)
 
 

@@ -187,6 +187,14 @@ def reset(
     _end(run_reset(tuple(robot or ()), crew))
 
 
+@app.command()
+def checklist(crew: Annotated[str, typer.Argument(help="Crew, or the path of a crew file, with real robots.")]) -> None:
+    """Ask each real robot what a person would check before it may move; moves nothing."""
+    from crew.cli.checklist import run_checklist
+
+    _end(run_checklist(crew))
+
+
 @app.command("runs")
 def list_runs(runs: Runs = Path("runs"), as_json: AsJson = False) -> None:
     """List the runs that were recorded."""

@@ -4,6 +4,7 @@ import asyncio
 import time
 from contextlib import AbstractContextManager, AsyncExitStack
 
+from crew.cli.checklist import check_hardware
 from crew.cli.follow import event_box
 from crew.cli.output import coloured, say, say_event
 from crew.cli.progress import proof_progress
@@ -12,6 +13,7 @@ from crew.cli.status import stop_line
 from crew.errors import UsageError
 from crew.launch.live import UNSECURED, LiveCrew, live_crew
 from crew.launch.options import LaunchOptions
+from crew.launch.site import resolve
 from crew.mailbox import Events, Letter, letters
 from crew.messages import RobotEvent
 from crew.verify import REPORT
@@ -35,6 +37,7 @@ async def _up(options: LaunchOptions, view: bool) -> int:
     began = time.monotonic()
     losses, run_folder = Losses(), None
     try:
+        await _check_real(options)
         async with live_crew(options, home(), proof_progress) as crew:
             run_folder = crew.run_folder
             _introduce(crew, time.monotonic() - began)
@@ -49,6 +52,13 @@ async def _up(options: LaunchOptions, view: bool) -> int:
         if run_folder is not None:
             say(f"read what it did: {run_folder / REPORT}")
     return 1 if losses.count else 0
+
+
+async def _check_real(options: LaunchOptions) -> None:
+    """Real robots are met and asked first; a crew of simulated ones has nothing to check."""
+    rules = resolve(options)
+    if any(robot.connection for robot in rules.crew.robots):
+        await check_hardware(rules)
 
 
 def live_page(port: int) -> AbstractContextManager[str]:

@@ -76,7 +76,8 @@ def _faults(study: Study) -> Iterator[str]:
     yield "## What each fault leads to"
     yield ""
     yield "Map A, seed 0, the demo's request. `fault@20` begins 20 s after the simulation, while the drone searches,"
-    yield "`fault@75` while the rover drives; the others are there from the start."
+    yield "`fault@75` while the rover drives; the others are there from the start. Positions are the true ones when the"
+    yield "mission ended: a drone that is in the air then is being landed by its own failsafe, and left alone."
     yield ""
     yield from _table([m for m in study.missions if m.scenario.name == "fault"], "fault")
 

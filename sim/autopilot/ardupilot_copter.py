@@ -5,7 +5,7 @@ from typing import Any, ClassVar
 
 from pymavlink.dialects.v20 import common as mavlink
 
-from crew.sim.autopilot.ardupilot import CAPABILITIES, GLOBAL, IGNORE_POSITION, link_lost
+from crew.sim.autopilot.ardupilot import CAPABILITIES, EKF_STATUS_REPORT, GLOBAL, IGNORE_POSITION, link_lost
 from crew.sim.autopilot.command import ACCEPTED, RELATIVE, Command, Outcome, denied, flag
 from crew.sim.autopilot.copter import Copter
 from crew.sim.autopilot.flight import AIRBORNE, Event, Phase
@@ -46,6 +46,7 @@ class ArduPilotCopter(Copter):
     """Its mode is a number of its own; what it does in the air follows the flight table."""
 
     capabilities: ClassVar[int] = CAPABILITIES
+    unsent: ClassVar[frozenset[int]] = frozenset({EKF_STATUS_REPORT})
 
     def __init__(
         self, vehicle: Quadcopter, link: Link, geo: GeoFrame, home: tuple[float, float], faults: Faults

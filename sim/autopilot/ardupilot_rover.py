@@ -4,7 +4,7 @@ from typing import Any, ClassVar
 
 from pymavlink.dialects.v20 import common as mavlink
 
-from crew.sim.autopilot.ardupilot import CAPABILITIES, GLOBAL, IGNORE_POSITION, link_lost
+from crew.sim.autopilot.ardupilot import CAPABILITIES, EKF_STATUS_REPORT, GLOBAL, IGNORE_POSITION, link_lost
 from crew.sim.autopilot.command import ACCEPTED, Command, Outcome, denied, flag, rejected
 from crew.sim.autopilot.driving import Driving
 from crew.sim.autopilot.link import Link
@@ -34,6 +34,7 @@ class ArduPilotRover(Driving):
     """HOLD stands still, GUIDED drives to the last position target, MANUAL waits for a pilot; armed or not."""
 
     capabilities: ClassVar[int] = CAPABILITIES
+    unsent: ClassVar[frozenset[int]] = frozenset({EKF_STATUS_REPORT})
 
     def __init__(self, vehicle: Rover, link: Link, geo: GeoFrame, home: tuple[float, float], faults: Faults) -> None:
         parameters = Parameters(PARAMETERS, bytewise=False)

@@ -30,6 +30,8 @@ class Autopilot(ABC):
     """One vehicle's autopilot. The world calls `poll` and `tick`; a flavour fills in the rest."""
 
     capabilities: ClassVar[int]
+    unsent: ClassVar[frozenset[int]] = frozenset()
+    """Messages that the real one would stream and this one never has anything to say in."""
 
     def __init__(
         self,
@@ -204,6 +206,8 @@ class Autopilot(ABC):
 
     def _set_interval(self, command: Command) -> Outcome:
         message_id = -1 if math.isnan(command.p1) else flag(command.p1)
+        if message_id in self.unsent:
+            return ACCEPTED
         if not self.streams.knows(message_id):
             return denied(f"no stream of message {message_id}")
         self.streams.set_interval(message_id, flag(command.p2), self.time_ns)

@@ -16,9 +16,9 @@ ACK = "COMMAND_ACK"
 class Relay:
     """Datagrams of one vehicle, one frame each. `now_s` is the time that delays are counted in."""
 
-    def __init__(self, now_s: Callable[[], float]) -> None:
+    def __init__(self, now_s: Callable[[], float], port: int = 0) -> None:
         self._now_s = now_s
-        self._vehicle_side, self._adapter_side = _socket(), _socket()
+        self._vehicle_side, self._adapter_side = _socket(port), _socket()
         self._vehicle: Address | None = None
         self.adapter: Address | None = None
         self._held: list[tuple[float, bytes]] = []
@@ -57,6 +57,10 @@ class Relay:
     def as_vehicle(self, message: Any, system: int) -> None:
         """Speak to the adapter from the vehicle's own address, under any system id."""
         self._to_adapter(bytes(message.pack(mavlink.MAVLink(None, srcSystem=system, srcComponent=1))))
+
+    def inject(self, data: bytes) -> None:
+        """Send raw bytes to the adapter from the vehicle's own address."""
+        self._to_adapter(data)
 
     def commands(self) -> list[int]:
         """Ids of the commands that the adapter has sent since `sent_by_adapter` was cleared."""
@@ -111,9 +115,9 @@ def _waiting(sock: socket.socket) -> list[tuple[bytes, Address]]:
             return found
 
 
-def _socket() -> socket.socket:
+def _socket(port: int = 0) -> socket.socket:
     sock = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
     sock.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 1 << 20)
-    sock.bind(("127.0.0.1", 0))
+    sock.bind(("127.0.0.1", port))
     sock.setblocking(False)
     return sock
