@@ -8,7 +8,7 @@ import time
 from collections.abc import Callable, Iterator
 from statistics import median
 
-from tests.bench import decision, roundtrip, simulation
+from tests.bench import decision, proof, roundtrip, simulation
 
 CREW = [sys.executable, "-m", "crew"]
 
@@ -64,6 +64,15 @@ def simulated() -> Iterator[Row]:
     yield at_least("simulation, headless, both robots moving", simulation.measure(20.0), 20, "x")
 
 
+def proofs() -> Iterator[Row]:
+    """Every contract that is shipped, from nothing."""
+    total_s = 0.0
+    for contract, seconds, states in proof.measure():
+        total_s += seconds
+        print(f"      {contract:58} {seconds:9.2f} s    ({states} states)", flush=True)
+    yield at_most("all shipped contracts proved, one mission", total_s, 10, "s")
+
+
 def command_line() -> Iterator[Row]:
     """What a person waits for."""
     yield at_most("crew --help, median of 7", median(_timed([*CREW, "--help"]) for _ in range(7)), 0.3, "s")
@@ -103,6 +112,7 @@ SECTIONS: dict[str, Callable[[], Iterator[Row]]] = {
     "decisions": decisions,
     "round_trips": round_trips,
     "simulation": simulated,
+    "proofs": proofs,
     "command_line": command_line,
 }
 
