@@ -9,10 +9,11 @@ from crew.contracts.mission import event as ev
 from crew.contracts.mission import judgement, machine
 from crew.contracts.mission.record import SAFE
 from crew.contracts.mission.validation import Validation
-from crew.contracts.mission_state import ACTIVE, ENDS, MissionState, Phase, StepPhase
+from crew.contracts.mission_state import ACTIVE, ENDS, MissionState, Phase, StepPhase, StepRecord
 from crew.contracts.proof.case import Case
 from crew.contracts.proof.cone import Classes, Cone
 from crew.contracts.proof.oracle import Oracle
+from crew.contracts.proof.promise import kept_promises
 from crew.contracts.proof.ruling import CANNOT_BE_COMMANDED, Desk, Ruling
 from crew.contracts.proof.state import ENDING, Frame, State
 from crew.contracts.proof.subject import STATUS, Var, asked
@@ -122,7 +123,8 @@ class Model:
             fluents = self._after(state.fluents, name, known)
             seen = ev.EffectSeen(at_ns=NOW_NS, sequence=record.sequence)
             note = Note("done", name, call, tuple(sorted(changed.items())))
-            yield from self._tell(state._replace(fluents=fluents), mission, seen, note)
+            troubles = self._seen_too_early(name, mission)
+            yield from self._tell(state._replace(fluents=fluents), mission, seen, note, troubles)
         failed = ev.Outcome(at_ns=NOW_NS, sequence=record.sequence, result="failed", code="failed")
         left = state._replace(fluents=self._after(state.fluents, name, {}))
         yield from self._tell(left, mission, failed, Note("failed", name, call))
@@ -131,14 +133,26 @@ class Model:
         """What the real judgement still misses when telemetry shows all that the call promises; empty: it is seen."""
         if name not in self._confirmable:
             record = mission.safe[name.removeprefix(SAFE)] if name.startswith(SAFE) else mission.steps[name]
-            changed = outcome(record.call, self.ground)
-            reports = {Var(value, STATUS): OK for value in self.oracle.reports(record.call)}
-            world = self.ground.snapshot({**changed, **reports})
-            missing = judgement.missing_effect(record.sequence, mission, world, self.rules, NOW_NS)
+            missing = self._missing(record, mission, outcome(record.call, self.ground))
             self._confirmable[name] = missing
             if missing:
                 self.unseen[name] = missing
         return self._confirmable[name]
+
+    def _missing(self, record: StepRecord, mission: MissionState, shown: Mapping[Var, FluentValue]) -> str:
+        reports = {Var(value, STATUS): OK for value in self.oracle.reports(record.call)}
+        world = self.ground.snapshot({**shown, **reports})
+        return judgement.missing_effect(record.sequence, mission, world, self.rules, NOW_NS)
+
+    def _seen_too_early(self, name: str, mission: MissionState) -> tuple[Trouble, ...]:
+        """The real judgement must not see an effect while telemetry shows something else."""
+        record = mission.safe[name.removeprefix(SAFE)] if name.startswith(SAFE) else mission.steps[name]
+        shown = outcome(record.call, self.ground)
+        for var in shown:
+            others = sorted(self.ground.domain(var) - {shown[var]}, key=str)
+            if others and not self._missing(record, mission, {**shown, var: others[0]}):
+                return (Trouble("machine", f"{record.call} counts as done although {var} is {others[0]}", name),)
+        return ()
 
     def _complete(self, state: State, mission: MissionState) -> Iterator[Move]:
         """The real judgement of completion, in every world that the mission may have reached."""
@@ -217,8 +231,8 @@ class Model:
         after, effects = machine.step(mission, event, self.rules.contracts)
         found = (
             *troubles,
-            *self._kept_promises(mission, after, event, effects),
-            *self._settled(state, mission, after, event),
+            *kept_promises(mission, after, event, effects),
+            *self._settled(state, mission, after),
         )
         owed, judging = self._owed(state, after, effects), self._judging(state, effects)
         asked = [e.step for e in effects if isinstance(e, ev.Authorise)]
@@ -265,7 +279,7 @@ class Model:
             if mission is before:
                 continue
             notes.append(option.note)
-            troubles += self._kept_promises(before, mission, option.event, effects)
+            troubles += kept_promises(before, mission, option.event, effects)
             owed |= {e.role for e in effects if isinstance(e, ev.MakeSafe)}
             for effect in effects:
                 if isinstance(effect, ev.Send):
@@ -300,31 +314,7 @@ class Model:
         worlds = [dict(world.facts) for world in cone.worlds({})]
         return all(any(self.oracle.broken(watch, world) for watch in watches) for world in worlds)
 
-    # --- the machine's side of the bargain
-
-    def _kept_promises(
-        self, before: MissionState, after: MissionState, event: ev.AnyEvent, effects: Sequence[ev.AnyEffect]
-    ) -> tuple[Trouble, ...]:
-        """Sent only by an allowed decision, done only when the effect was seen, and what begins is asked for."""
-        watched = {e.sequence for e in effects if isinstance(e, ev.WatchEffect)}
-        sends = {e.step for e in effects if isinstance(e, ev.Send)}
-        allowed = isinstance(event, ev.Decided) and event.decision.refusal is None
-        found = []
-        for name, record in (*after.steps.items(), *((SAFE + r, s) for r, s in after.safe.items())):
-            was = before.safe.get(name.removeprefix(SAFE)) if name.startswith(SAFE) else before.steps[name]
-            if was is not None and was.phase is record.phase:
-                continue
-            if record.phase is StepPhase.CONFIRMING and record.sequence not in watched:
-                found.append(Trouble("machine", f"nobody looks for the effect of {name}", name))
-            if (record.phase is StepPhase.SENT) != (name in sends) or (name in sends and not allowed):
-                found.append(Trouble("machine", f"{name} is recorded as sent without being sent, or the reverse", name))
-            if record.phase is StepPhase.SUCCEEDED and not isinstance(event, ev.EffectSeen):
-                found.append(Trouble("machine", f"{name} counts as done before its effect was seen", name))
-        return tuple(found)
-
-    def _settled(
-        self, state: State, before: MissionState, after: MissionState, event: ev.AnyEvent
-    ) -> Iterator[Trouble]:
+    def _settled(self, state: State, before: MissionState, after: MissionState) -> Iterator[Trouble]:
         """A safe call that is done must have led to the safe state."""
         for role in set(after.settled) - set(before.settled):
             record = after.safe.get(role)

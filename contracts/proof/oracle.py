@@ -9,9 +9,26 @@ from crew.contracts.proof.instances import predecessors
 from crew.contracts.proof.never import Watch, holds
 from crew.contracts.proof.subject import STATUS, Var, counts
 from crew.contracts.proof.trouble import Facts, Trouble
-from crew.contracts.proof.world import ABSENT, EARLIER, NEVER, OK, STALE, Ground, Possible, skill_of
+from crew.contracts.proof.world import (
+    ABSENT,
+    AMBIGUOUS,
+    EARLIER,
+    NEVER,
+    NOT_FINITE,
+    OK,
+    OUTSIDE,
+    READABLE,
+    STALE,
+    Ground,
+    Possible,
+    skill_of,
+)
 from crew.contracts.skill import Entity
 from crew.contracts.snapshot import FluentValue
+
+SAID_OK = frozenset((*READABLE, NOT_FINITE, OUTSIDE))
+"""Conditions in which a value's source says that it has one."""
+SAID = frozenset((ABSENT, AMBIGUOUS))
 
 
 class Oracle:
@@ -41,7 +58,23 @@ class Oracle:
         records = (*mission.steps.values(), *mission.safe.values())
         if any(r.phase in ACTIVE and r.call.robot == call.robot for r in records):
             yield Trouble("busy_robot", f"{call} is sent while {call.robot} is still at work", step)
+        yield from self._guards(step, call, mission, dict(facts))
         yield from self._values(step, call, mission, dict(facts))
+
+    def _guards(
+        self, step: str, call: Call, mission: MissionState, values: Mapping[Var, FluentValue]
+    ) -> Iterator[Trouble]:
+        """Every guard that the contract and the skill declare for this moment is true of what was seen."""
+        declared = self._contract.step(step)
+        guards = () if declared is None else declared.needs
+        entry = () if any(r.sequence for r in mission.steps.values()) else self._contract.needs
+        told = self._read(values)
+        for guard in (*entry, *guards):
+            if counts(guard, self._ground.slots) and not holds(guard, self._instance.roles, self._ground.slots, told):
+                yield Trouble("guard_ignored", f"{call} is sent although it needs that {guard}", step)
+        for fluent, value in skill_of(call, self._ground.rules).needs.items():
+            if told.get(Var(call.robot, fluent)) != value:
+                yield Trouble("guard_ignored", f"{call} is sent although it needs {fluent}: {value}", step)
 
     def _values(
         self, step: str, call: Call, mission: MissionState, values: Mapping[Var, FluentValue]
@@ -68,11 +101,30 @@ class Oracle:
 
     def broken(self, watch: Watch, values: Mapping[Var, FluentValue]) -> bool:
         """Whether a declared property is broken by a start in this world."""
-        told = {
-            var: self.truth(var.owner, str(value)) if var.name == STATUS and self._ground.is_value(var) else value
-            for var, value in values.items()
-        }
-        return watch.broken(told)
+        return watch.broken(self._told(values))
+
+    def _read(self, values: Mapping[Var, FluentValue]) -> dict[Var, FluentValue]:
+        """What a guard may rely on: the source's own word while it is fresh; a place only where it is a place."""
+        told: dict[Var, FluentValue] = {}
+        for var, value in values.items():
+            condition = values.get(Var(var.owner, STATUS), OK) if self._ground.is_value(var) else OK
+            if var.name == STATUS and self._ground.is_value(var):
+                told |= {var: OK} if condition in SAID_OK else {var: condition} if condition in SAID else {}
+            elif condition in (READABLE if var.name == "at" else SAID_OK):
+                told[var] = value
+        return told
+
+    def _told(self, values: Mapping[Var, FluentValue]) -> dict[Var, FluentValue]:
+        """What was seen, as a contract speaks of it: of a value in disorder nothing else is known."""
+        told: dict[Var, FluentValue] = {}
+        for var, value in values.items():
+            if not self._ground.is_value(var):
+                told[var] = value
+            elif var.name == STATUS:
+                told[var] = self.truth(var.owner, str(value))
+            elif self.truth(var.owner, str(values.get(Var(var.owner, STATUS), OK))) == OK:
+                told[var] = value
+        return told
 
     def incomplete(self, values: Mapping[Var, FluentValue]) -> str:
         """The first completion condition that is not true; empty if all are."""
