@@ -338,6 +338,10 @@ class Model:
 
     # --- fluents
 
+    def changing(self, step: str) -> frozenset[Var]:
+        """What a step changes while it runs."""
+        return frozenset(self._while[step])
+
     def possible(self, state: State, mission: MissionState) -> dict[Var, Possible]:
         """What each fluent may be at this moment; a robot at work may show anything on its way."""
         return self._possible(mission, state.fluents)

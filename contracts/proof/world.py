@@ -72,11 +72,16 @@ class Ground:
         self.fluents = tuple(sorted(var for var in self.domains if not self.is_value(var)))
         self.index = {var: k for k, var in enumerate(self.fluents)}
         self._calm = {spec.name: self._calm_robot(spec.name) for spec in rules.crew.robots}
-        self._free_spot = free_spot(rules)
+        self.free_spot = free_spot(rules)
 
     def is_value(self, var: Var) -> bool:
         """Whether a variable belongs to a run-time value: an input of each decision, never remembered."""
         return self.rules.kind_of(var.owner) is None
+
+    @staticmethod
+    def calm(domain: str) -> FluentValue:
+        """What a fluent of this domain is that nobody asks for."""
+        return CALM[domain]
 
     def domain(self, var: Var) -> Possible:
         """All that a variable may be."""
@@ -150,7 +155,7 @@ class Ground:
 
     def _spot(self, place: FluentValue | None) -> Point:
         location = self.rules.crew.location(place) if isinstance(place, str) else None
-        return self._free_spot if location is None else Point(location.x, location.y)
+        return self.free_spot if location is None else Point(location.x, location.y)
 
     def _calm_robot(self, name: str) -> RobotState:
         kind = self.rules.kind_of(name)
