@@ -11,7 +11,7 @@ from crew.contracts.gate import authorize as gate
 from crew.contracts.gate import guard, state, value, workflow
 from crew.contracts.language import containment
 from crew.contracts.mission import ending, judgement, machine, record
-from crew.contracts.mission_state import MissionState, Phase, StepPhase
+from crew.contracts.mission_state import CONSUMED, MissionState, Phase, StepPhase
 from crew.contracts.proof import cone, model, oracle
 from crew.contracts.refusal import Refusal
 
@@ -70,7 +70,7 @@ def _blind(**forgiven: Any) -> Callable[..., Refusal | None]:
 def _transition(step: str, mission: MissionState) -> Refusal | None:
     """Order forgotten: what was not consumed may go."""
     phase = mission.steps[step].phase
-    return _REAL_TRANSITION(step, mission) if phase in workflow.CONSUMED else None
+    return _REAL_TRANSITION(step, mission) if phase in CONSUMED else None
 
 
 _REAL_TRANSITION = workflow._check_transition

@@ -237,7 +237,7 @@ class Walk:
             var = Var(call.robot, fluent)
             ways = [left[fluent] for left in skill.may if fluent in left]
             ways += [skill.during[fluent]] if fluent in skill.during else []
-            values = [call.args.get(str(v)[1:], v) if str(v).startswith("$") else v for v in ways]
+            values: list[FluentValue] = [call.args.get(str(v)[1:], v) if str(v).startswith("$") else v for v in ways]
             effects = effect_values(skill, call)
             values += [effects[fluent]] if fluent in effects else []
             if var in old and not self._is_place(var):
