@@ -4,7 +4,7 @@ Plans are built here, but whether one is an instance is said by the real `check_
 """
 
 from collections.abc import Iterator, Mapping, Sequence
-from itertools import permutations, product
+from itertools import product
 
 from crew.contracts.contract import CallPattern, Contract, Slot, SlotType, Step
 from crew.contracts.gate.arguments import bounds, check_call
@@ -156,18 +156,32 @@ def predecessors(contract: Contract, present: Sequence[str]) -> dict[str, frozen
 def orders(contract: Contract, robots: Mapping[str, str]) -> Iterator[tuple[str, ...]]:
     """One order of the steps for each way in which every robot can have its own steps queued."""
     before = predecessors(contract, list(robots))
-    queues = []
-    for robot in dict.fromkeys(robots.values()):
-        own = [name for name, holder in robots.items() if holder == robot]
-        queues.append([queue for queue in permutations(own) if _fits(queue, before)])
-    for picked in product(*queues):
-        order = _merge(picked, before)
+    owned = [[n for n, holder in robots.items() if holder == robot] for robot in dict.fromkeys(robots.values())]
+    for queues in _queues(owned, before):
+        order = _merge(queues, before)
         if order is not None:
             yield order
 
 
-def _fits(queue: tuple[str, ...], before: Mapping[str, frozenset[str]]) -> bool:
-    return not any(later in before[name] for index, name in enumerate(queue) for later in queue[index + 1 :])
+def _queues(owned: Sequence[Sequence[str]], before: Mapping[str, frozenset[str]]) -> Iterator[list[tuple[str, ...]]]:
+    """One queue for each robot, in every combination; made one at a time, for there may be very many."""
+    if not owned:
+        yield []
+        return
+    for queue in _extensions((), owned[0], before):
+        for others in _queues(owned[1:], before):
+            yield [queue, *others]
+
+
+def _extensions(
+    start: tuple[str, ...], rest: Sequence[str], before: Mapping[str, frozenset[str]]
+) -> Iterator[tuple[str, ...]]:
+    """The orders of one robot's steps that keep what the contract orders among them."""
+    if not rest:
+        yield start
+    for name in rest:
+        if not before[name] & set(rest):
+            yield from _extensions((*start, name), [other for other in rest if other != name], before)
 
 
 def _merge(queues: Sequence[Sequence[str]], before: Mapping[str, frozenset[str]]) -> tuple[str, ...] | None:

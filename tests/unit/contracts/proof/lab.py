@@ -49,12 +49,12 @@ def rules(text: str, made: Kind, robots: int = 1, *others: str) -> Rules:
     return Rules(crew=crew, kinds=kinds, contracts=contracts)
 
 
-def chain(steps: int, robots: int = 1) -> str:
-    """A contract of as many steps in chains, one chain a robot."""
+def chain(steps: int, robots: int = 1, *, ordered: bool = True) -> str:
+    """A contract of as many steps in chains, one chain a robot, or in no order at all."""
     lines = [f"contract: chains\nsummary: {steps} steps, {robots} robots.\nroles:"]
     lines += [f"  w{n}: {{safe: {{by: halt, reach: {{moving: false}}}}}}" for n in range(robots)]
     lines += ["asks: []", "steps:"]
     for index in range(steps):
-        after = f", after: [s{index - robots}]" if index >= robots else ""
+        after = f", after: [s{index - robots}]" if ordered and index >= robots else ""
         lines.append(f"  s{index}: {{role: w{index % robots}, do: {{work: {{}}}}{after}}}")
     return "\n".join([*lines, "deadline_s: 60", ""])

@@ -93,8 +93,7 @@ def test_robots_that_nothing_tells_apart_are_not_tried_in_every_order() -> None:
 
 
 def test_steps_of_one_robot_without_an_order_are_tried_in_every_order() -> None:
-    text = chain(3).replace(", after: [s0]", "").replace(", after: [s1]", "")
-    report = check(rules(text, kind(skill("work", effects={"ready": True}), STOP)), "chains")
+    report = check(rules(chain(3, ordered=False), kind(skill("work", effects={"ready": True}), STOP)), "chains")
     assert report.plans == 6
 
 
@@ -167,3 +166,11 @@ def test_a_contract_that_no_plan_fits_says_why() -> None:
     finding = found(report, "no_plan")
     assert "no plan of dispatch_only gets through: the crew knows no target 'nowhere'" in finding.message
     assert finding.where == (f"dispatch_only.yaml:{nowhere.line}",)
+
+
+def test_a_long_chain_is_one_plan_and_a_heap_of_steps_is_a_bound(monkeypatch: pytest.MonkeyPatch) -> None:
+    work = kind(skill("work", effects={"ready": True}), STOP)
+    assert check(rules(chain(12), work), "chains").plans == 1
+    monkeypatch.setattr("crew.contracts.proof.checker.MAX_PLANS", 10)
+    report = check(rules(chain(12, ordered=False), work), "chains", limit=200)
+    assert (report.proved, report.bound_reached) == (False, True)
