@@ -1,0 +1,41 @@
+"""The figures of docs/proof.md are those of the checker."""
+
+import re
+
+import pytest
+
+from crew.contracts.proof import check
+from crew.library import load_rules
+from tests.unit.contracts.proof.scale import ROWS
+from tests.unit.contracts.proof.test_shipped import SHIPPED
+from tests.unit.project.tree import ROOT
+
+PAGE = ROOT / "docs" / "proof.md"
+
+
+def figures(pattern: str) -> list[tuple[str, ...]]:
+    return re.findall(pattern, PAGE.read_text(encoding="utf-8").replace(",", ""), re.MULTILINE)
+
+
+def test_the_table_of_shipped_contracts_is_as_proved() -> None:
+    listed = figures(r"^\| (\w+) \| `(\w+)` \| (\d+) \| (\d+) \| (\d+) \| (\d+) \|$")
+    assert [(crew, name) for crew, name, *_ in listed] == SHIPPED
+    for crew, name, *counts in listed:
+        report = check(load_rules(crew), name)
+        assert [int(count) for count in counts] == [report.plans, report.states, report.transitions, report.decisions]
+
+
+def test_the_count_by_hand_adds_up() -> None:
+    report = check(load_rules("humanoid_quadruped"), "handover")
+    assert (report.plans, report.states) == (4, 64)
+    assert report.states // report.plans == 1 + 3 + 4 + 4 + 4
+
+
+@pytest.mark.soak
+@pytest.mark.parametrize("name", ROWS)
+def test_the_table_of_generated_contracts_is_as_measured(name: str) -> None:
+    rows = figures(r"^\| (.+?) \| proved \| (\d+) \| (\d+) \| (\d+) \|")
+    listed = {row: [int(count) for count in counts] for row, *counts in rows}
+    report = check(ROWS[name](), "chains", repair=False)
+    assert report.proved
+    assert listed[name.replace(",", "")] == [report.states, report.transitions, report.decisions]
