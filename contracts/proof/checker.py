@@ -78,7 +78,7 @@ class Search:
         dodging = self._dodging()
         graphs = self._explore([*own, *dodging])
         mine = graphs[: len(own)]
-        self.found = judge(self._contract, mine, graphs[len(own) :], self._refused)
+        self.found = judge(self._contract, mine, graphs[len(own) :], self._refused, whole=not self._bound)
         return Report(
             contract=self._contract.name,
             proved=not self.found and not self._bound,

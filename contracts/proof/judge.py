@@ -22,14 +22,15 @@ class Found(NamedTuple):
 
 
 def judge(
-    contract: Contract, own: Sequence[Graph], dodging: Sequence[Graph], refused: Sequence[Refused]
+    contract: Contract, own: Sequence[Graph], dodging: Sequence[Graph], refused: Sequence[Refused], *, whole: bool
 ) -> list[Found]:
-    """Every finding; the worst first."""
+    """Every finding, the worst first. What never happens is judged only if everything was looked at."""
     broken = [*_broken(own), *_broken(dodging, only_never=True)]
     hopeless = list(_contradictory(own))
     told = {finding.subject for finding in hopeless}
     kept = [f for f in broken if f.finding.rule != "never" or f.finding.subject not in told]
-    return [*kept, *(Found(finding) for finding in (*hopeless, *_unfinished(contract, own, refused)))]
+    unfinished = _unfinished(contract, own, refused) if whole else ()
+    return [*kept, *(Found(finding) for finding in (*hopeless, *unfinished))]
 
 
 def _unfinished(contract: Contract, own: Sequence[Graph], refused: Sequence[Refused]) -> Iterator[Finding]:

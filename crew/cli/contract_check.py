@@ -94,6 +94,7 @@ def _wanted(files: Sequence[Path], crew: str) -> Iterator[tuple[Rules, list[str]
 
 def _rules_for(path: Path) -> Rules:
     """The shipped crew that a file is for: the one that names it, or else the first that it can be read with."""
+    read_text(path)  # a file that is not there is nobody's
     named = [name for name in crew_names() if path.stem in load_rules(name).crew.contracts]
     others = [name for name in crew_names() if name not in named]
     first: CrewError | None = None

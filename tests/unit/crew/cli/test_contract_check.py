@@ -52,6 +52,7 @@ def test_a_bound_is_reported_and_never_passed_over(capsys: pytest.CaptureFixture
     out = capsys.readouterr().out
     assert "not proved  search_and_dispatch" in out
     assert "bound of 40 states reached: what lies beyond was not looked at" in out
+    assert "dead_step" not in out, "what was not looked at may well happen"
 
 
 def test_a_file_that_cannot_be_read_is_a_usage_error(tmp_path: Path) -> None:
@@ -59,6 +60,11 @@ def test_a_file_that_cannot_be_read_is_a_usage_error(tmp_path: Path) -> None:
     path.write_text("contract: odd\nsummary: Nothing.\nroles: {}\n")
     with pytest.raises(UsageError, match=r"odd\.yaml:3:8"):
         run_check([path], "", as_json=False)
+
+
+def test_a_file_that_is_not_there_is_a_usage_error(tmp_path: Path) -> None:
+    with pytest.raises(UsageError, match=r"^no file .*nowhere\.yaml; relative paths start at [^\n]*$"):
+        run_check([tmp_path / "nowhere.yaml"], "", as_json=False)
 
 
 def test_an_unknown_crew_is_a_usage_error() -> None:
