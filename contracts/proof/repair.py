@@ -12,7 +12,7 @@ from crew.contracts.proof.report import Finding, Report
 from crew.contracts.refusal import show
 from crew.contracts.site import Rules
 
-MAX_TRIES = 16
+MAX_TRIES = 8
 """Changes that are tried for one finding."""
 
 

@@ -38,6 +38,7 @@ class Frame:
         self.names = tuple(item.step for item in instance.steps)
         self.calls: dict[str, Call] = {item.step: item.call for item in instance.steps}
         self.roles = tuple(instance.roles)
+        self._records: dict[tuple[str, StepPhase | None], StepRecord] = {}
         self._places = {item.step: _places(item.call, rules, spot) for item in instance.steps}
         declared = {role: contract.role(role) for role in self.roles}
         self.safe_calls = {
@@ -66,9 +67,14 @@ class Frame:
         )
 
     def _step(self, index: int, name: str, phase: StepPhase | None) -> StepRecord:
-        if phase in (None, StepPhase.PENDING, StepPhase.REFUSED):
-            return StepRecord(call=self.calls[name], phase=phase or StepPhase.PENDING)
-        assert phase is not None
+        known = self._records.get((name, phase))
+        if known is None:
+            known = self._records[name, phase] = self._record(index, name, phase or StepPhase.PENDING)
+        return known
+
+    def _record(self, index: int, name: str, phase: StepPhase) -> StepRecord:
+        if phase in (StepPhase.PENDING, StepPhase.REFUSED):
+            return StepRecord(call=self.calls[name], phase=phase)
         return StepRecord(
             call=self.calls[name],
             phase=phase,

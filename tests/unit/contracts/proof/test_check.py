@@ -71,12 +71,12 @@ def test_a_leftover_of_a_failure_is_seen() -> None:
 
 
 def test_a_state_space_beyond_the_bound_is_not_proved_and_says_so() -> None:
-    wide = rules(chain(12, 6), kind(skill("work", effects={"ready": True}), STOP), 6)
-    report = check(wide, "chains", limit=500)
+    wide = rules(chain(12, 3), kind(skill("work", effects={"ready": True}), STOP), 3)
+    report = check(wide, "chains", limit=300)
     assert report.bound_reached
     assert not report.proved
-    assert report.states >= 500
-    assert report.limit == 500
+    assert report.states >= 300
+    assert report.limit == 300
 
 
 def test_too_many_plans_are_a_bound_too(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -149,7 +149,8 @@ def test_a_robot_out_of_command_is_left_to_its_declared_behaviour() -> None:
 
 
 def test_verdicts_are_the_same_every_time() -> None:
-    assert check_all(air_ground()) == check_all(air_ground())
+    few = replace(air_ground(), contracts={n: air_ground().contracts[n] for n in ("abort", "search_only")})
+    assert check_all(few) == check_all(few)
 
 
 def test_an_unknown_contract_is_named() -> None:

@@ -5,9 +5,8 @@ import re
 import pytest
 
 from crew.contracts.proof import check
-from crew.library import load_rules
 from tests.unit.contracts.proof.scale import ROWS
-from tests.unit.contracts.proof.test_shipped import SHIPPED
+from tests.unit.contracts.proof.test_shipped import SHIPPED, report_of
 from tests.unit.project.tree import ROOT
 
 PAGE = ROOT / "docs" / "proof.md"
@@ -21,12 +20,12 @@ def test_the_table_of_shipped_contracts_is_as_proved() -> None:
     listed = figures(r"^\| (\w+) \| `(\w+)` \| (\d+) \| (\d+) \| (\d+) \| (\d+) \|$")
     assert [(crew, name) for crew, name, *_ in listed] == SHIPPED
     for crew, name, *counts in listed:
-        report = check(load_rules(crew), name)
+        report = report_of(crew, name)
         assert [int(count) for count in counts] == [report.plans, report.states, report.transitions, report.decisions]
 
 
 def test_the_count_by_hand_adds_up() -> None:
-    report = check(load_rules("humanoid_quadruped"), "handover")
+    report = report_of("humanoid_quadruped", "handover")
     assert (report.plans, report.states) == (4, 64)
     assert report.states // report.plans == 1 + 3 + 4 + 4 + 4
 

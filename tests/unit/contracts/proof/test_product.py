@@ -1,5 +1,6 @@
 """Missions side by side: leases keep them apart, one that preempts gets through, and all of them end."""
 
+from functools import cache
 from itertools import combinations_with_replacement
 
 import pytest
@@ -12,6 +13,7 @@ BOUND = 400_000
 CREWS = crew_names()
 
 
+@cache
 def parts(crew: str, contracts: tuple[str, ...]) -> tuple[Part, ...]:
     """The fullest plan of each contract."""
     return tuple(Part(explored(load_rules(crew), name)[0]) for name in contracts)

@@ -7,8 +7,7 @@ from itertools import chain
 
 import pytest
 
-from crew.contracts.proof import check
-from tests.unit.contracts.proof.zoo import BEASTS, ZOO, golden, mistake, rules_of, verdict
+from tests.unit.contracts.proof.zoo import BEASTS, ZOO, golden, mistake, verdict
 
 
 @pytest.mark.parametrize("beast", BEASTS)
@@ -40,8 +39,6 @@ def test_every_golden_file_belongs_to_a_beast() -> None:
 
 def test_stories_end_after_the_fewest_events() -> None:
     """The shortest story: one dispatch less can't break it, since breadth comes first and plans are compared."""
-    report = check(rules_of("humanoid_quadruped"), "carry")
-    assert report.proved
     story = golden("humanoid_quadruped/load_guard_removed").read_text(encoding="utf-8").splitlines()
     sent = [line for line in story if " is sent" in line]
     assert len(sent) == 1, "the load itself breaks it; no approach is needed"
