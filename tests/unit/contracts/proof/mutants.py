@@ -186,7 +186,7 @@ MUTANTS = (
     Mutant("unknown", "what is unknown holds", "proof", put(state, "evaluate", _unknown_holds), *HANDOVER),
     Mutant("negation", "`not` is overread in a guard", "proof", put(state, "evaluate", _not_forgotten), *NEGATED),
     Mutant("deadline", "the deadline is not asked", "proof", put(state, "_check_deadline", nothing)),
-    Mutant("approval", "an approval is not asked", "proof", put(state, "_check_approval", nothing), *APPROVED),
+    Mutant("approval", "an approval is not asked", "proof", put(state, "check_approval", nothing), *APPROVED),
     Mutant("any_value", "whatever was published is a fix", "proof", put(value, "_usable", _loose_places())),
     Mutant("earlier_fix", "a fix of an earlier mission will do", "proof", put(value, "_published_since", nothing)),
     Mutant("coverage", "what a plan drops is not noticed", "proof", put(containment, "_coverage", nothing), *CARRY),

@@ -9,6 +9,7 @@ from random import Random
 
 from msgspec.structs import replace
 
+from crew.contracts.gate.approval import approved, wants_approval
 from crew.contracts.gate.authorize import Gate
 from crew.contracts.gate.guard import SECOND_NS
 from crew.contracts.mission import event as ev
@@ -102,7 +103,7 @@ class Walk:
         self.judging = False
         start = model.frame.mission(State(Phase.VALIDATING, ()))
         self.state = replace(start, started_ns=-1, sequence=0)
-        verdict = Validation(instance=model.instance, question=model.frame.question)
+        verdict = Validation(instance=model.instance)
         self.tell(ev.Validated(at_ns=self.now_ns, validation=verdict))
 
     def run(self, meddle: float) -> int:
@@ -143,7 +144,12 @@ class Walk:
         return []
 
     def _decided(self, call: Call, purpose: Purpose) -> ev.Decided:
-        decision = self.gate.authorize(call, self.state, self._snapshot(), self.rules, self.now_ns, purpose)
+        world, state = self._snapshot(), self.state
+        step_name = next((n for n, r in state.steps.items() if r.call == call and r.phase.value == "deciding"), "")
+        if purpose is Purpose.EXECUTE and step_name and wants_approval(step_name, state, self.rules):
+            given = approved(call, step_name, state, world, self.rules, self.now_ns)
+            state = replace(state, approvals=given)  # whoever is asked says yes
+        decision = self.gate.authorize(call, state, world, self.rules, self.now_ns, purpose)
         return ev.Decided(at_ns=self.now_ns, decision=decision)
 
     def _made_safe(self, role: str) -> ev.AnyEvent:
@@ -173,11 +179,7 @@ class Walk:
     def _go_on(self) -> None:
         """One robot says or shows something, or the mission's own wait ends."""
         at_ns, state = self.now_ns, self.state
-        if state.phase is Phase.ASKING:
-            assert state.question is not None
-            yes = self.chance.random() < 0.8
-            self.tell(ev.Answered(at_ns=at_ns, token=state.question.token, yes=yes))
-        elif state.phase is Phase.WAITING:
+        if state.phase is Phase.WAITING:
             self.tell(ev.Leased(at_ns=at_ns))
         elif self.judging and self.chance.random() < 0.9:
             self.judging = False
