@@ -128,6 +128,21 @@ class Checklist(Protocol):
 
     def checklist(self) -> AsyncIterator[Check]:
         """Every item, as it is found out. Sets nothing and moves nothing."""
+
+
+class Course(msgspec.Struct, frozen=True):
+    """How far a running skill has come: its share from 0 to 1, and what is left of the way, where they are known."""
+
+    share: float | None = None
+    left_m: float | None = None
+
+
+@runtime_checkable
+class TellsProgress(Protocol):
+    """An adapter that can say how far a running skill has come. Optional: people look at it, nothing depends on it."""
+
+    def progress(self) -> Course | None:
+        """Of the skill that runs; None if none does, or if it is not known."""
         ...
 
 

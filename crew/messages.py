@@ -26,6 +26,17 @@ class RobotCard(Message, frozen=True, kw_only=True):
     simulated: bool
 
 
+class Progress(Message, frozen=True, kw_only=True):
+    """How far a running skill has come, for people: no decision depends on it."""
+
+    schema: ClassVar[str] = "crew.progress"
+    version: ClassVar[int] = 1
+    share: float | None = None
+    """From 0 to 1; None where the end is not known."""
+    left_m: float | None = None
+    """What is left of the way, metres."""
+
+
 class RobotState(Message, frozen=True, kw_only=True):
     """A robot's state, published at a fixed rate. `stamps_ns` holds each fluent's time at its source."""
 
@@ -48,6 +59,8 @@ class RobotState(Message, frozen=True, kw_only=True):
     """Commands that it refused because their permit is not the orchestrator's, or is spent."""
     fluents: Mapping[str, FluentValue] = {}
     stamps_ns: Mapping[str, int] = {}
+    progress: Progress | None = None
+    """Of the skill that it carries out, if its adapter tells."""
 
 
 class RobotEvent(Message, frozen=True, kw_only=True):
@@ -313,6 +326,22 @@ class RobotStatus(Message, frozen=True, kw_only=True):
     running: str
     lease: str
     fluents: Mapping[str, FluentValue] = {}
+    progress: Progress | None = None
+
+
+class StepStatus(Message, frozen=True, kw_only=True):
+    """One step, or `safe:<role>`, as the mission machine has it; `after` are the steps that it waits for."""
+
+    schema: ClassVar[str] = "crew.step_status"
+    version: ClassVar[int] = 1
+    step: str
+    robot: str
+    skill: str
+    phase: str
+    after: tuple[str, ...] = ()
+    since_s: float | None = None
+    """Seconds of mission time since it was dispatched."""
+    code: str = ""
 
 
 class MissionStatus(Message, frozen=True, kw_only=True):
@@ -329,6 +358,12 @@ class MissionStatus(Message, frozen=True, kw_only=True):
     token: str = ""
     step: str = ""
     """The step that waits for approval; empty if the question is about the plan."""
+    steps: tuple[StepStatus, ...] = ()
+    waits_for: tuple[str, ...] = ()
+    """Missions that hold the robots that it waits for."""
+    spent_s: float = 0.0
+    """Mission time since it began to execute."""
+    deadline_s: float = 0.0
 
 
 class StopStatus(Message, frozen=True, kw_only=True):

@@ -12,6 +12,7 @@ from crew.actors.orchestrator.lease import LeaseTable
 from crew.actors.orchestrator.ledger import Ledger
 from crew.actors.orchestrator.planning import PlannerDesk
 from crew.actors.orchestrator.shell import MissionShell, is_idle
+from crew.actors.orchestrator.telling import mission_status
 from crew.actors.orchestrator.watch import CrewWatch
 from crew.actors.orchestrator.world import WorldFold
 from crew.bus.port import Body, Bus, Sample
@@ -30,7 +31,6 @@ from crew.messages import (
     CancelMission,
     CrewStatus,
     Intake,
-    MissionStatus,
     RobotCard,
     RobotEvent,
     RobotState,
@@ -234,7 +234,9 @@ class Orchestrator:
             at_ns=self._clock.now_ns(),
             stopped=self._world.stopped,
             robots=self._world.status(self._leases.held),
-            missions=tuple(_mission_status(m) for m in self.shell.missions.values()),
+            missions=tuple(
+                mission_status(m, self._rules, self._leases, self._clock.now_ns()) for m in self.shell.missions.values()
+            ),
             dropped=dict(dropped),
             stop=self._world.hold.status(self._world.still()) if self._world.hold.held else None,
         )
@@ -261,17 +263,3 @@ class Orchestrator:
         for task in self._tasks.pop(mission, set()):
             if task is not asyncio.current_task():
                 task.cancel()
-
-
-def _mission_status(mission: MissionState) -> MissionStatus:
-    question = mission.question
-    return MissionStatus(
-        mission=mission.id,
-        request=mission.request[:200],
-        phase=mission.phase,
-        contract=mission.contract,
-        message=mission.message,
-        question="" if question is None else question.text,
-        token="" if question is None else question.token,
-        step="" if question is None else question.step,
-    )

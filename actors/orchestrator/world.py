@@ -171,6 +171,7 @@ class WorldFold:
                     running=known.running,
                     lease=known.lease,
                     fluents={} if state is None else state.fluents,
+                    progress=None if state is None else state.progress,
                 )
             )
         return tuple(found)

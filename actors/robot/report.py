@@ -3,20 +3,26 @@
 from collections import Counter
 from typing import TYPE_CHECKING
 
-from crew.adapter import Adapter
+from crew.adapter import Adapter, TellsProgress
 from crew.bus.port import Bus, Qos
 from crew.clock import Clock
 from crew.contracts.site import RobotSpec
 from crew.contracts.snapshot import RobotState as KnownRobot
 from crew.contracts.snapshot import Snapshot, Stamped, StampedValue, ValueReading
 from crew.keys import Keys
-from crew.messages import Dispatch, RobotCard, RobotEvent, RobotState, RobotValue
+from crew.messages import Dispatch, Progress, RobotCard, RobotEvent, RobotState, RobotValue
 
 if TYPE_CHECKING:
     from crew.actors.robot.actor import RobotActor
 
 STATE_EVERY_S = 0.1
 CARD_EVERY_S = 1.0
+
+
+def _progress(adapter: Adapter) -> Progress | None:
+    """How far the running skill has come; None for an adapter that does not tell."""
+    told = adapter.progress() if isinstance(adapter, TellsProgress) else None
+    return None if told is None else Progress(share=told.share, left_m=told.left_m)
 
 
 class Reporter:
@@ -68,6 +74,7 @@ class Reporter:
                 refused_permits=actor.admission.refused_permits,
                 fluents={name: reading.value for name, reading in readings.items()},
                 stamps_ns={name: reading.stamp_ns for name, reading in readings.items()},
+                progress=_progress(self._adapter) if actor.running else None,
             )
         )
 

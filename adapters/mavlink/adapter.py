@@ -4,7 +4,7 @@ import asyncio
 from collections.abc import AsyncIterator, Callable, Mapping
 from typing import cast
 
-from crew.adapter import AdapterConfig, Check, Place, Reading, StopLatch
+from crew.adapter import AdapterConfig, Check, Course, Place, Reading, StopLatch
 from crew.adapters.mavlink.braking import brake
 from crew.adapters.mavlink.checklist import walk
 from crew.adapters.mavlink.flavours.flavour import FlightFlavour
@@ -253,6 +253,11 @@ class MavlinkAdapter:
             return
         if fault := self._vehicle.fault():
             raise AdapterError(f"{self._config.robot}: {skill} not started: {fault}", code="robot_unavailable")
+
+    def progress(self) -> Course | None:
+        """How far the running skill has come on its way."""
+        run = self._run
+        return None if run is None else run.way.course()
 
     # Stopping.
 

@@ -183,6 +183,7 @@ class QuadcopterSkills:
     async def _fly(self, run: Run, sweep: Sweep, height_m: float) -> None:
         """All way-points: the first and the last are stopped at, so that the sweep begins and ends level."""
         first, *middle = sweep.points
+        run.way.plan((self._motion().x_m, self._motion().y_m), sweep.points)
         await self.travel(run, *first, height_m, sweep.heading_rad)
         for x_m, y_m in middle[:-1]:
             await self._pass(run, x_m, y_m, height_m, sweep.heading_rad)

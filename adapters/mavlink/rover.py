@@ -88,6 +88,7 @@ class RoverSkills:
     async def _drive(self, run: Run, place: Place, route: list[Spot], met: Sequence[Disc]) -> list[Disc]:
         """Along a route to its end; or, stopping nowhere, what unknown things have come in its way."""
         watch = Watch(self._vehicle, place, met, self._options)
+        run.way.plan(self._here(), route)
         for spot in route[:-1]:
             if new := await self._leg(run, spot, PASS_M, math.inf, watch):
                 return new

@@ -9,6 +9,7 @@ from crew.adapters.mavlink.command import Command
 from crew.adapters.mavlink.fence import check_breach
 from crew.adapters.mavlink.flavours.flavour import Modes
 from crew.adapters.mavlink.vehicle import POLL_S, Vehicle, seconds_since
+from crew.adapters.mavlink.way import Way
 from crew.adapters.mavlink.writer import Permit
 from crew.clock import seconds_ns
 from crew.errors import AdapterError
@@ -42,6 +43,7 @@ class Run:
         self.vehicle = vehicle
         self._fenced = fenced
         self.permit = permit
+        self.way = Way()
         self.moved = False
         """Whether anything that causes motion was sent."""
         self._stall_s = stall_s
@@ -83,6 +85,7 @@ class Run:
     async def until(self, done: Callable[[], bool], gap_m: Callable[[], float], what: str) -> None:
         """Wait until `done`. Raises AdapterError `no_progress` when `gap_m` stops shrinking, and what `check` does."""
         clock = self.vehicle.clock
+        self.way.leg(gap_m)
         best_m, since_ns = gap_m(), clock.now_ns()
         while True:
             self.permit.check()

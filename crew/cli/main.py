@@ -124,8 +124,8 @@ def status(crew: CrewOption = "", as_json: AsJson = False) -> None:
 
 @app.command()
 def watch(crew: CrewOption = "", as_json: AsJson = False) -> None:
-    """Follow every mission of a running crew until Ctrl-C."""
-    from crew.cli.talk import run_watch
+    """Follow every mission of a running crew until Ctrl-C: a page on a terminal, else one line an event."""
+    from crew.cli.watch import run_watch
 
     _end(run_watch(crew, as_json))
 

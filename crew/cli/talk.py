@@ -2,7 +2,7 @@
 
 from crew.bus.port import Qos
 from crew.cli.answering import open_mission
-from crew.cli.follow import ask_person, event_box, follow_request
+from crew.cli.follow import ask_person, follow_request
 from crew.cli.output import say, say_event, say_json
 from crew.cli.session import EXIT_CODES, operator, run
 from crew.errors import UsageError
@@ -34,23 +34,6 @@ async def _request(text: str, crew: str, as_json: bool) -> int:
     if last.code == UNREADABLE:
         return UsageError.exit_code
     return EXIT_CODES[last.outcome or "rejected"]
-
-
-def run_watch(crew: str, as_json: bool) -> int:
-    """Until Ctrl-C."""
-    return run(_watch(crew, as_json))
-
-
-async def _watch(crew: str, as_json: bool) -> int:
-    async with operator(crew) as (bus, keys, running):
-        if not as_json:
-            say(f"watching {running.crew}; end with Ctrl-C")
-        async for letter in event_box(bus, keys):
-            if as_json:
-                say_json(letter.message)
-            else:
-                say_event(letter.message, with_mission=True)
-    return 0
 
 
 def run_cancel(mission: str, crew: str) -> int:
