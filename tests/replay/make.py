@@ -7,6 +7,7 @@ from contextlib import closing
 from pathlib import Path
 
 from crew.chain import Signer
+from crew.history.contract_text import FOLDER as CONTRACTS
 from crew.home import Home
 from crew.journal import Journal
 from crew.journal_reader import read_records
@@ -35,6 +36,7 @@ def keep(name: str, demo: Demo, key: Signer) -> None:
     folder = HERE / name
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir()
+    shutil.copytree(demo.run / CONTRACTS, folder / CONTRACTS)
     path = folder / "journal.db"
     head = HERE / f"{name}.json"
     with Journal(path, run_id=name, key=key, outside_head=head, on_failure=print) as journal:
