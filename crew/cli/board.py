@@ -24,6 +24,7 @@ _SIGNS = {
     "unknown": ("?", "amber"),
     "deciding": ("·", "blue"),
     "pending": ("·", "dim"),
+    "asking": ("?", "amber"),
 }
 _NEXT = {"asking": "once it is confirmed", "waiting": "once its robots are free"}
 _PHASES = {"completed": "green", "rejected": "red", "halted": "red", "cancelled": "amber", "asking": "amber"}
@@ -149,7 +150,8 @@ def _question(mission: MissionStatus, width: int) -> Iterator[Line]:
     """The question whole, and the commands that answer it."""
     for text in textwrap.wrap(one_line(mission.question, 1000), max(width - 6, 20)):
         yield line("  ", Piece(f"? {text}", "amber"))
-    yes, no = f"crew confirm {mission.mission}", f"crew confirm {mission.mission} --no"
+    command = f"crew {'approve' if mission.step else 'confirm'} {mission.mission}"
+    yes, no = command, f"{command} --no"
     yield line("    yes: ", Piece(yes, "bold"), "    no: ", Piece(no, "bold"))
 
 
@@ -162,6 +164,8 @@ def _step(step: StepStatus, mission: MissionStatus, status: CrewStatus, wide: in
         yield from _running(step, status)
     elif is_pending(step):
         yield _waiting(step, mission)
+    elif step.phase == "asking":
+        yield Piece("  waits for a person's approval", "amber")
     elif step.phase != "succeeded":
         yield Piece(f"  {step.phase}{f' ({step.code})' if step.code else ''}", colour)
 

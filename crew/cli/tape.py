@@ -54,6 +54,8 @@ def look_of_robot(robot: RobotStatus, missions: tuple[MissionStatus, ...]) -> Lo
     active = next((s for s in steps if s.phase in _ACTIVE), None)
     if active is not None:
         return SAFE if is_safe(active) else SKILL
+    if any(s.phase == StepPhase.ASKING for s in steps):
+        return ASKING
     return HELD if any(s.phase in _PENDING for s in steps) and robot.lease else IDLE
 
 

@@ -96,6 +96,13 @@ def test_a_question_stands_whole_with_the_commands_that_answer_it() -> None:
     assert "yes: crew confirm m1    no: crew confirm m1 --no" in page
 
 
+def test_a_step_that_waits_for_approval_says_how_to_approve_it() -> None:
+    steps = (*STEPS[:3], replace(STEPS[3], phase="asking"))
+    page = shown(status(replace(MISSION, steps=steps, question="tb3 drives to (5, 5). Shall I?", step="dispatch")))
+    assert "waits for a person's approval" in row(page, "navigate_to")
+    assert "yes: crew approve m1    no: crew approve m1 --no" in page
+
+
 def test_a_mission_that_waits_names_who_holds_its_robots() -> None:
     page = shown(status(replace(MISSION, mission="m2", phase="waiting", waits_for=("m1",))))
     assert "waits for robots that m1 holds" in page
