@@ -12,6 +12,8 @@ _JOINERS = "\u200c\u200d"
 
 def visible(text: str, longest: int = LONGEST) -> str:
     """The text with control and format characters written out, and cut after `longest` characters."""
+    if len(text) <= longest and text.isprintable():
+        return text
     cut = "" if len(text) <= longest else f"... ({len(text) - longest} more characters; the journal holds them)"
     return "".join(map(_shown, text[:longest])) + cut
 

@@ -12,6 +12,9 @@ from crew.verify import JOURNAL
 LARGEST_BYTES = 4 << 20
 """A larger journal takes longer than an end may: its report is made when somebody asks for it."""
 
+MOST = 20
+"""Missions that are told in full at once, for the same reason."""
+
 
 @contextmanager
 def reported(run_folder: Path, home: Home) -> Iterator[None]:
@@ -34,7 +37,7 @@ def _write(run_folder: Path, home: Home) -> str:
     from crew.report.page import write_report
 
     try:
-        write_report(run_folder, home)
+        write_report(run_folder, home, most=MOST)
     except (CrewError, OSError) as error:
         return str(error)
     except Exception as error:

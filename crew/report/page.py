@@ -18,20 +18,21 @@ _POLICY = "default-src 'none'; style-src 'unsafe-inline'"
 
 
 def write_report(
-    folder: Path, home: Home, *, key_file: Path | None = None, to: Path | None = None
+    folder: Path, home: Home, *, key_file: Path | None = None, to: Path | None = None, most: int = MAX_MISSIONS
 ) -> tuple[Path, bool]:
     """Write the page, by default into the run's folder; its path, and whether the run verifies.
 
+    `most`: of so many missions, the last ones, everything is told; of the others how they ended.
     Raises UsageError if there is no run, and OSError if the page can't be written.
     """
     history, report = read_history(folder, home, key_file=key_file)
-    text = page(history, report, folder, running=home.goes_on(folder))
+    text = page(history, report, folder, running=home.goes_on(folder), most=most)
     path = folder / REPORT if to is None else to
     replace_file(path, text.encode("utf-8"), durable=False)
     return path, report.holds
 
 
-def page(history: History, report: VerifyReport, folder: Path, *, running: bool) -> str:
+def page(history: History, report: VerifyReport, folder: Path, *, running: bool, most: int = MAX_MISSIONS) -> str:
     """A history as HTML."""
     missions = list(history.missions.values())
     body = tag(
@@ -39,7 +40,7 @@ def page(history: History, report: VerifyReport, folder: Path, *, running: bool)
         whole.head(history, report),
         whole.verdict(report, running=running, folder=folder),
         whole.overview(history),
-        _missions(missions, history, folder),
+        _missions(missions, history, folder, most),
         whole.robots(history),
         whole.notes(history),
         whole.origin(history, report),
@@ -55,13 +56,14 @@ def page(history: History, report: VerifyReport, folder: Path, *, running: bool)
     return "<!doctype html>\n" + tag("html", header, tag("body", body), lang="en") + "\n"
 
 
-def _missions(missions: list[MissionHistory], history: History, folder: Path) -> Html | None:
+def _missions(missions: list[MissionHistory], history: History, folder: Path, most: int) -> Html | None:
     if history.rules is None or not missions:
         return None
-    explainer, told = Explainer(folder, history), missions[-MAX_MISSIONS:]
+    explainer, told = Explainer(folder, history), missions[-most:]
     numbered = len(missions) > 1
     first = len(missions) - len(told) + 1
-    left_out = tag("p", f"The first {first - 1} missions are left out here.", class_="soft") if first > 1 else None
+    words = f"Of the first {first - 1} missions no more is told here; up to {MAX_MISSIONS}: crew report {folder.name}"
+    left_out = tag("p", words, class_="soft") if first > 1 else None
     sections = [
         mission_section(m, explainer, history.rules, history.last_ns, f"{n}. " if numbered else "")
         for n, m in enumerate(told, start=first)

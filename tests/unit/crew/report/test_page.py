@@ -132,6 +132,18 @@ def test_several_missions_are_listed_and_told(tmp_path: Path, home: Home) -> Non
     assert "'sandwich' in the request is no name that this crew knows" in page.text
 
 
+def test_of_many_missions_the_last_are_told_and_all_are_listed(tmp_path: Path, home: Home) -> None:
+    with staged(tmp_path / "run", home) as stage:
+        for number in range(4):
+            stage.mission("send the rover to base", BASE_PLAN, name=f"m{number}")
+    path, _ = write_report(tmp_path / "run", home, most=2)
+    page = Page(path.read_text())
+    sections = [value for name, value in page.attributes if name == "id"]
+    assert sections == ["mission-m2", "mission-m3"]
+    assert page.text.count("send the rover to base") == 4 + 2, "listed all, told two"
+    assert "Of the first 2 missions no more is told here" in page.text
+
+
 def test_a_run_without_missions_has_a_page(tmp_path: Path, home: Home) -> None:
     with staged(tmp_path / "run", home):
         pass
