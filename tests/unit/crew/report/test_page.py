@@ -5,6 +5,7 @@ import sqlite3
 from contextlib import closing
 from html.parser import HTMLParser
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -56,7 +57,7 @@ def home(tmp_path: Path) -> Home:
     return Home(tmp_path / "home")
 
 
-def report(folder: Path, home: Home, **more: Path) -> Page:
+def report(folder: Path, home: Home, **more: Any) -> Page:
     path, _ = write_report(folder, home, **more)
     return Page(path.read_text(encoding="utf-8"))
 
