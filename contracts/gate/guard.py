@@ -108,7 +108,8 @@ def _robot_fluent(robot: str, name: str, wanted: FluentValue, scope: Scope) -> V
     age_s = age(stamped.source_ns, scope.now_ns)
     if not 0.0 <= age_s <= declared.max_age_s:
         return Verdict(Truth.STALE, _observed(stamped.value), age_s, declared.max_age_s)
-    held = _equal(stamped.value, wanted, declared.tolerance_m, scope)
+    same = stamped.value == wanted  # two objects at one place are still two
+    held = _equal(stamped.value, wanted, declared.tolerance_m, scope) if declared.domain == "place" else same
     return Verdict(Truth.HOLDS if held else Truth.FAILS, _observed(stamped.value), age_s, declared.max_age_s)
 
 

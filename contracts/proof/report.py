@@ -2,9 +2,6 @@
 
 import msgspec
 
-VERSION = 1
-"""Raised whenever the checker may judge the same rules differently: proofs kept under an older one are made anew."""
-
 
 class Finding(msgspec.Struct, frozen=True, kw_only=True):
     """One property that does not hold, with the shortest way to break it."""

@@ -21,14 +21,10 @@ from crew.contracts.proof.world import NOW_NS, Ground, Possible, skill_of
 from crew.contracts.skill import Entity
 from crew.contracts.snapshot import FluentValue, Snapshot
 
-CANNOT_BE_COMMANDED: dict[Code, str] = {
-    Code.STOPPED: "on_stop",
-    Code.ROBOT_UNAVAILABLE: "on_link_loss",
-    Code.STATE_STALE: "on_link_loss",
-    Code.ROBOT_LEASED: "lease",
-    Code.ROBOT_BUSY: "busy",
-}
-"""Refusals of a safe call that say that the robot is out of reach, and what then governs it."""
+CANNOT_BE_COMMANDED = frozenset(
+    (Code.STOPPED, Code.ROBOT_UNAVAILABLE, Code.STATE_STALE, Code.ROBOT_LEASED, Code.ROBOT_BUSY)
+)
+"""Refusals of a safe call that say that the robot is out of reach."""
 
 
 class Ruling(NamedTuple):

@@ -106,7 +106,7 @@ def test_what_is_allowed_is_the_next_step_of_a_free_robot_with_fresh_state(given
         return
     record = mission.steps[decision.step]
     assert record.call == call
-    assert record.phase in (StepPhase.PENDING, StepPhase.DECIDING, StepPhase.REFUSED)
+    assert record.phase in (StepPhase.PENDING, StepPhase.DECIDING, StepPhase.ASKING, StepPhase.REFUSED)
     if call == b.DISPATCH:
         place = decision.places["target"]
         assert -6.0 <= place.x <= 10.0

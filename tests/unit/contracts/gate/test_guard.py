@@ -11,6 +11,7 @@ from crew.contracts.plan import Spot
 from crew.contracts.site import Rules
 from crew.contracts.snapshot import FluentValue, Point, Snapshot
 from tests.unit.contracts import build as b
+from tests.unit.contracts import indoor
 
 ROLES = {"searcher": "iris", "responder": "tb3"}
 ROVER_M = 0.6
@@ -142,3 +143,12 @@ def test_a_position_that_is_not_finite_is_no_position(rules: Rules) -> None:
     where = scope(rules, b.world(b.tb3(at=Point(nan, 0.0))), slots={"destination": "base"})
     assert truth("responder.at", "$destination", where) is Truth.ABSENT
     assert truth("responder.at", "$destination", where, negated=True) is Truth.ABSENT
+
+
+@pytest.mark.parametrize(("tray", "expected"), [("red_cube", Truth.HOLDS), ("bottle", Truth.FAILS)])
+def test_two_objects_at_one_place_are_not_one(tray: str, expected: Truth) -> None:
+    spot = indoor.place("table_a")
+    both = (indoor.seen("red_cube", spot), indoor.seen("bottle", spot))
+    world = indoor.indoors(indoor.go2(tray=tray), values=both)
+    scope = Scope(rules=indoor.indoor(), world=world, now_ns=b.NOW_NS, roles={"carrier": "go2"})
+    assert evaluate(Condition(path="carrier.tray", value="red_cube"), scope).truth is expected
