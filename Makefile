@@ -4,7 +4,7 @@ BIN := .venv/bin
 CREW ?= air_ground
 ARGS ?=
 
-.PHONY: help demo test check bench soak study smoke clean
+.PHONY: help demo test check bench soak picture study smoke clean
 
 help:  ## this list
 	@grep -E '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):.*## */make \1\t/' | expand -t 14
@@ -26,6 +26,9 @@ bench: .venv/.ready  ## measure speed and latency
 
 soak: .venv/.ready  ## the long tests: those marked soak, and every property with many more examples
 	$(BIN)/python -m pytest -m "soak or hypothesis" --hypothesis-profile=soak $(ARGS)
+
+picture: .venv/.ready  ## make the README's picture anew: a run's page in a browser (needs Chromium)
+	$(BIN)/python -m tests.integration.recorder.picture docs/images/replay.png
 
 study: .venv/.ready  ## the evaluation: accuracy and faults of air_ground; then crew eval, if this version has it
 	$(BIN)/python -m crew.study.air_ground --out docs/study --runs runs/study

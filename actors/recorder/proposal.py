@@ -83,7 +83,10 @@ def _instance_table(mission: MissionState, rules: Rules) -> Iterator[str]:
 
 
 def _arguments(call: Call, origin: Mapping[str, str]) -> Iterator[str]:
+    """One line for all arguments of a call that come from the same place."""
+    grouped: dict[str, list[str]] = {}
     for name, value in call.args.items():
         shown = value if isinstance(value, str) else f"{value:g}"
-        where = quoted(f"{call.skill} {name}", 90)
-        yield f"- {where} = **{quoted(shown, 60)}**: {quoted(origin.get(name, ''))}"
+        grouped.setdefault(origin.get(name, ""), []).append(f"{quoted(name, 60)} = **{quoted(shown, 60)}**")
+    for source, names in grouped.items():
+        yield f"- {quoted(call.skill, 60)} {', '.join(names)}: {quoted(source)}"

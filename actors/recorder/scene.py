@@ -34,7 +34,7 @@ class Scene:
         self._trails: dict[str, list[tuple[int, Place]]] = {}
         self._tips: dict[str, Place] = {}
         self._written: dict[str, Place] = {}
-        self._true: set[str] = set()
+        self._true = False
 
     def site(self) -> None:
         """What the crew file says of the place, and a mark for each robot."""
@@ -55,7 +55,8 @@ class Scene:
             self._static("obstacles", _discs(crew.obstacles))
 
     def shapes(self, scene: SimScene) -> None:
-        """The simulated world's own shapes, one entity for each kind of shape on a body."""
+        """The simulated world's own shapes, one entity for each kind of shape on a body. The truth will be told."""
+        self._true = True
         for body, pose in scene.fixed.items():
             self._static(f"body/{body}", _transform(pose))
         grouped: dict[tuple[str, str], list[SimShape]] = {}
@@ -72,13 +73,12 @@ class Scene:
         for body, pose in truth.bodies.items():
             self._poses.setdefault(body, []).append((truth.at_ns, pose))
         for robot, (x, y, z, _) in truth.poses.items():
-            self._true.add(robot)
             self._extend(robot, truth.at_ns, (x, y, z))
 
     def whereabouts(self, at_ns: int, told: Whereabouts) -> None:
         """What a robot believes; it is its place where nobody knows the truth."""
         at = (told.at.x, told.at.y, told.at.z)
-        if told.robot not in self._true:
+        if not self._true:
             self._extend(told.robot, at_ns, at)
         self._recording.log(
             f"{SCENE}/estimate/{told.robot}",
