@@ -8,7 +8,7 @@ import time
 from collections.abc import Callable, Iterator
 from statistics import median
 
-from tests.bench import decision, proof, roundtrip, simulation
+from tests.bench import decision, proof, recorded, roundtrip, simulation
 
 CREW = [sys.executable, "-m", "crew"]
 
@@ -57,6 +57,12 @@ def round_trips() -> Iterator[Row]:
     )
     yield at_most("  raw Zenoh round trip, p50", median(raw_us), 5000, "us")
     yield at_most("  dispatch to accepted, p50", median(dispatch_us), 5000, "us")
+
+
+def recording() -> Iterator[Row]:
+    """What a recorder costs those who move robots."""
+    without_us, with_us = recorded.measure(1200)
+    yield at_most("dispatch to accepted, recorder on / off, p50", median(with_us) / median(without_us), 1.1, "x")
 
 
 def simulated() -> Iterator[Row]:
@@ -111,6 +117,7 @@ def _ready_s(folder: str, environment: dict[str, str]) -> float:
 SECTIONS: dict[str, Callable[[], Iterator[Row]]] = {
     "decisions": decisions,
     "round_trips": round_trips,
+    "recording": recording,
     "simulation": simulated,
     "proofs": proofs,
     "command_line": command_line,

@@ -103,27 +103,45 @@ class RawPing:
         self._back.set()
 
 
-async def _interleave(bus: ZenohBus, raw: RawPing, rounds: int) -> tuple[list[float], list[float]]:
-    cards: KeepLatest[Letter[RobotCard]] = KeepLatest(letters(RobotCard))
-    events: Events[Letter[RobotEvent]] = Events(letters(RobotEvent), capacity=1024, on_lost=print)
-    bus.subscribe(KEYS.robot_cards, cards)
-    bus.subscribe(KEYS.robot_events, events)
-    await cards.changed()
-    boot = cards.take()[0].message.boot_id
-    publisher = bus.publisher(KEYS.act(ROBOT, "stop"), qos=Qos.ACTUATION)
-    contract = load_rules("air_ground").contracts["dispatch_only"].digest
-    payload = encode(permit(_dispatch(1, boot, contract), KEYS.crew, KEY))[0]
-    bus.put(KEYS.heartbeat(), permit(_beat(0), KEYS.crew, KEY), qos=Qos.EVENT)
-    await asyncio.sleep(0.5)  # the robot looks for heartbeats every 0.1 s
-    floors, trips = [], []
-    for number in range(1, rounds + WARM_UP + 1):
-        floors.append(await asyncio.to_thread(raw.ping, payload))
-        dispatch = _dispatch(number, boot, contract)
-        bus.put(KEYS.heartbeat(), permit(_beat(number), KEYS.crew, KEY), qos=Qos.EVENT)
+class Trips:
+    """Dispatches to the robot, one after the other, as the orchestrator sends them."""
+
+    def __init__(self, bus: ZenohBus) -> None:
+        self._bus = bus
+        self._cards: KeepLatest[Letter[RobotCard]] = KeepLatest(letters(RobotCard))
+        self._events: Events[Letter[RobotEvent]] = Events(letters(RobotEvent), capacity=1024, on_lost=print)
+        bus.subscribe(KEYS.robot_cards, self._cards)
+        bus.subscribe(KEYS.robot_events, self._events)
+        self._publisher = bus.publisher(KEYS.act(ROBOT, "stop"), qos=Qos.ACTUATION)
+        self._contract = load_rules("air_ground").contracts["dispatch_only"].digest
+        self._number = 0
+        self._boot = ""
+
+    async def ready(self) -> bytes:
+        """Wait for the robot; the bytes of a dispatch to it."""
+        await self._cards.changed()
+        self._boot = self._cards.take()[0].message.boot_id
+        self._bus.put(KEYS.heartbeat(), permit(_beat(0), KEYS.crew, KEY), qos=Qos.EVENT)
+        await asyncio.sleep(0.5)  # the robot looks for heartbeats every 0.1 s
+        return encode(permit(_dispatch(1, self._boot, self._contract), KEYS.crew, KEY))[0]
+
+    async def trip(self) -> float:
+        """Microseconds from the put to the accepted event."""
+        self._number += 1
+        dispatch = _dispatch(self._number, self._boot, self._contract)
+        self._bus.put(KEYS.heartbeat(), permit(_beat(self._number), KEYS.crew, KEY), qos=Qos.EVENT)
         began_ns = time.perf_counter_ns()
-        publisher.put(permit(dispatch, KEYS.crew, KEY))
-        accepted_ns = await _accepted(events, number)
-        trips.append((accepted_ns - began_ns) / 1000)
+        self._publisher.put(permit(dispatch, KEYS.crew, KEY))
+        return (await _accepted(self._events, self._number) - began_ns) / 1000
+
+
+async def _interleave(bus: ZenohBus, raw: RawPing, rounds: int) -> tuple[list[float], list[float]]:
+    dispatches = Trips(bus)
+    payload = await dispatches.ready()
+    floors, trips = [], []
+    for _ in range(rounds + WARM_UP):
+        floors.append(await asyncio.to_thread(raw.ping, payload))
+        trips.append(await dispatches.trip())
     return floors[WARM_UP:], trips[WARM_UP:]
 
 
