@@ -86,10 +86,14 @@ async def _measure(rounds: int) -> tuple[list[float], list[float]]:
 async def _draws(path: Path, teller: "_Teller") -> None:
     """Wait until the recorder has begun to write."""
     deadline = time.monotonic() + DRAWS_S
-    while not path.is_file() or path.stat().st_size < 10_000:
+    while not _has_begun(path):
         assert time.monotonic() < deadline, f"the recorder writes nothing to {path}"
         teller.tell()
         await asyncio.sleep(0.1)
+
+
+def _has_begun(path: Path) -> bool:
+    return path.is_file() and path.stat().st_size >= 10_000
 
 
 class _Teller:
@@ -104,7 +108,8 @@ class _Teller:
         self._count += 1
         name, now_ns = f"m{self._count}", time.monotonic_ns()
         began = MissionState(id=name, request=REQUEST, reading=self._reading)
-        for number, event in enumerate((ev.Started(at_ns=now_ns), ev.CancelAsked(at_ns=now_ns, by="bench")), start=1):
+        events: tuple[ev.AnyEvent, ...] = (ev.Started(at_ns=now_ns), ev.CancelAsked(at_ns=now_ns, by="bench"))
+        for number, event in enumerate(events, start=1):
             progress = MissionProgress(
                 mission=name,
                 number=number,
