@@ -66,6 +66,7 @@ async def _measure(rounds: int) -> tuple[list[float], list[float]]:
             async with ZenohBus(link(ORCHESTRATOR)) as bus:
                 teller, trips = _Teller(bus), Trips(bus)
                 await trips.ready()
+                beating = asyncio.create_task(_beat(trips))
                 for turn in range(2 * TURNS):
                     records = turn % 2 == 1
                     if records:
@@ -80,7 +81,15 @@ async def _measure(rounds: int) -> tuple[list[float], list[float]]:
                         os.kill(supervisor.pids[RECORDER], signal.SIGKILL)
                         (folder / FILE).unlink()
                         await asyncio.sleep(0.2)
+                beating.cancel()
     return times
+
+
+async def _beat(trips: Trips) -> None:
+    """Between two turns the robot must not take the orchestrator for lost."""
+    while True:
+        trips.beat()
+        await asyncio.sleep(0.2)
 
 
 async def _draws(path: Path, teller: "_Teller") -> None:

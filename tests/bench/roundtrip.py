@@ -114,22 +114,27 @@ class Trips:
         bus.subscribe(KEYS.robot_events, self._events)
         self._publisher = bus.publisher(KEYS.act(ROBOT, "stop"), qos=Qos.ACTUATION)
         self._contract = load_rules("air_ground").contracts["dispatch_only"].digest
-        self._number = 0
+        self._number = self._beats = 0
         self._boot = ""
 
     async def ready(self) -> bytes:
         """Wait for the robot; the bytes of a dispatch to it."""
         await self._cards.changed()
         self._boot = self._cards.take()[0].message.boot_id
-        self._bus.put(KEYS.heartbeat(), permit(_beat(0), KEYS.crew, KEY), qos=Qos.EVENT)
+        self.beat()
         await asyncio.sleep(0.5)  # the robot looks for heartbeats every 0.1 s
         return encode(permit(_dispatch(1, self._boot, self._contract), KEYS.crew, KEY))[0]
+
+    def beat(self) -> None:
+        """Show that the orchestrator lives."""
+        self._bus.put(KEYS.heartbeat(), permit(_beat(self._beats), KEYS.crew, KEY), qos=Qos.EVENT)
+        self._beats += 1
 
     async def trip(self) -> float:
         """Microseconds from the put to the accepted event."""
         self._number += 1
         dispatch = _dispatch(self._number, self._boot, self._contract)
-        self._bus.put(KEYS.heartbeat(), permit(_beat(self._number), KEYS.crew, KEY), qos=Qos.EVENT)
+        self.beat()
         began_ns = time.perf_counter_ns()
         self._publisher.put(permit(dispatch, KEYS.crew, KEY))
         return (await _accepted(self._events, self._number) - began_ns) / 1000
