@@ -6,7 +6,7 @@ from pathlib import Path
 
 import msgspec
 
-from crew.actors.recorder.rrd import FILE, compact, is_whole
+from crew.actors.recorder.rrd import FILE, compact, is_whole, unfinished
 from crew.verify import JOURNAL
 
 COMPACT_S = 120.0
@@ -26,6 +26,8 @@ def prepare(folder: Path, *, anew: bool = False) -> Prepared:
     """
     path = folder / FILE
     if not anew and is_whole(path):
+        if unfinished(path).exists():
+            compact([path], path, timeout_s=COMPACT_S)
         return Prepared(path)
     if anew or not path.is_file() or path.stat().st_size == 0:
         return _drawn(folder)

@@ -36,7 +36,8 @@ if TYPE_CHECKING:
     from crew.actors.recorder.page import Page
 
 T = TypeVar("T")
-COMPACT_S = 0.6
+COMPACT_S = 6.0
+"""More than there may be: who is ended before leaves a whole file all the same, only a larger one."""
 DRAW_EVERY_S = 0.1
 UP_S = 10.0
 """After this long a crew whose robots were not all heard counts as up all the same."""

@@ -1,6 +1,8 @@
 """Recording files: whether one is whole, and making one small and whole again with Rerun's own program."""
 
+import ctypes
 import os
+import signal
 import subprocess
 from pathlib import Path
 
@@ -10,6 +12,7 @@ FILE = "run.rrd"
 END_MARK = b"RRF2FOOT"
 """What a file that was closed in an orderly way ends with: the mark of its index."""
 _TAIL = 64
+_PR_SET_PDEATHSIG = 1
 
 
 def is_whole(path: Path) -> bool:
@@ -27,11 +30,17 @@ def compact(parts: list[Path], path: Path, *, timeout_s: float) -> bool:
 
     `path` may be one of the parts. It is replaced at once or not at all.
     """
-    fresh = path.with_name(f".{path.name}.{os.getpid()}")
+    fresh = unfinished(path)
     command = [str(program()), "rrd", "optimize", "--continue-on-error", "-o", str(fresh), *map(str, parts)]
     try:
         done = subprocess.run(
-            command, check=False, timeout=timeout_s, stdin=subprocess.DEVNULL, capture_output=True, env=quiet()
+            command,
+            check=False,
+            timeout=timeout_s,
+            stdin=subprocess.DEVNULL,
+            capture_output=True,
+            env=quiet(),
+            preexec_fn=die_with_parent,
         )
         if done.returncode == 0 and is_whole(fresh):
             os.replace(fresh, path)
@@ -41,6 +50,19 @@ def compact(parts: list[Path], path: Path, *, timeout_s: float) -> bool:
     finally:
         fresh.unlink(missing_ok=True)
     return False
+
+
+def unfinished(path: Path) -> Path:
+    """Where a recording is being made small. Left over, it tells that whoever did so was ended."""
+    return path.with_name(f".{path.name}.fresh")
+
+
+_LIBC = ctypes.CDLL(None)
+
+
+def die_with_parent() -> None:
+    """Run in a child before it becomes Rerun's program: it must not outlive this process, however that ends."""
+    _LIBC.prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
 
 
 def quiet() -> dict[str, str]:

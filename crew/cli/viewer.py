@@ -1,8 +1,6 @@
 """Shows a page in a browser or on the screen: Rerun's own program, on loopback only, ended with this process."""
 
-import ctypes
 import os
-import signal
 import socket
 import subprocess
 import threading
@@ -14,14 +12,13 @@ from shutil import copyfileobj
 from typing import NoReturn
 from urllib.parse import quote
 
-from crew.actors.recorder.rrd import quiet
+from crew.actors.recorder.rrd import die_with_parent, quiet
 from crew.actors.recorder.viewer_program import program
 from crew.clock import WALL
 from crew.errors import CrewError, UsageError
 
 LOOPBACK = "127.0.0.1"
 UP_S = 10.0
-_PR_SET_PDEATHSIG = 1
 
 
 def show_on_screen(path: Path, environment: Mapping[str, str]) -> NoReturn:
@@ -46,7 +43,7 @@ def web_viewer(source: str, port: int) -> Iterator[str]:
         stdout=subprocess.DEVNULL,
         stderr=subprocess.DEVNULL,
         env=quiet(),
-        preexec_fn=_die_with_parent,
+        preexec_fn=die_with_parent,
         process_group=0,
     )
     try:
@@ -119,11 +116,3 @@ def _await_listening(viewer: "subprocess.Popen[bytes]", port: int) -> None:
                 return
         pause.wait(0.05)
     raise CrewError(f"the viewer does not serve on {LOOPBACK}:{port} after {UP_S:g} s")
-
-
-_LIBC = ctypes.CDLL(None)
-
-
-def _die_with_parent() -> None:
-    """Run in the child before it becomes the viewer: it must not outlive this process, however that ends."""
-    _LIBC.prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)

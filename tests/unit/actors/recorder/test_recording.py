@@ -7,8 +7,9 @@ import pytest
 
 from crew.actors.recorder.disk import MAX_BYTES, RESERVE_BYTES, DiskGuard
 from crew.actors.recorder.prepare import prepare
+from crew.actors.recorder.rebuild import rebuild
 from crew.actors.recorder.remains import lane_changes, log_lines, remains
-from crew.actors.recorder.rrd import FILE, is_whole
+from crew.actors.recorder.rrd import FILE, is_whole, unfinished
 from crew.errors import UsageError
 from tests.replay.make import HERE
 
@@ -37,6 +38,17 @@ def test_a_whole_recording_is_taken_as_it_is(drawn: Path) -> None:
     before = (drawn / FILE).stat().st_mtime_ns
     assert prepare(drawn).note == ""
     assert (drawn / FILE).stat().st_mtime_ns == before
+
+
+def test_a_recording_that_was_not_made_small_in_time_is_when_it_is_shown(drawn: Path, tmp_path: Path) -> None:
+    folder = copy(drawn, tmp_path)
+    rebuild(folder / "journal.db", folder / FILE)
+    large = (folder / FILE).stat().st_size
+    unfinished(folder / FILE).write_bytes(b"half")
+    assert prepare(folder).note == ""
+    assert is_whole(folder / FILE)
+    assert (folder / FILE).stat().st_size < large
+    assert not unfinished(folder / FILE).exists()
 
 
 @pytest.mark.parametrize("part", [0.5, 0.9, 0.999])
