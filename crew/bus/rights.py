@@ -13,16 +13,18 @@ class Rights:
 
     def __init__(self, identity: Identity | None) -> None:
         self._identity = identity
+        self._may = {way: tuple(identity.may(way)) for way in Way} if identity else {}
+        self._hears = {way: tuple(identity.hears(way)) for way in Way} if identity else {}
 
     def to_write(self, way: Way, key: str) -> None:
         """Raise BusError if the role may not put or ask on `key`, or hold a token there."""
         if self._identity is not None:
-            self._check(self._identity.name, f"may not {_WRITES[way]}", key, tuple(self._identity.may(way)))
+            self._check(self._identity.name, f"may not {_WRITES[way]}", key, self._may[way])
 
     def to_read(self, way: Way, key_expr: str) -> None:
         """Raise BusError if the role may not subscribe to `key_expr`, answer or watch tokens there."""
         if self._identity is not None:
-            self._check(self._identity.name, f"may not {_READS[way]}", key_expr, tuple(self._identity.hears(way)))
+            self._check(self._identity.name, f"may not {_READS[way]}", key_expr, self._hears[way])
 
     @staticmethod
     def _check(name: str, what: str, key: str, allowed: tuple[str, ...]) -> None:

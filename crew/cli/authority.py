@@ -105,11 +105,12 @@ async def _forbidden(
     heard: dict[str, list[tuple[str, bytes]]],
 ) -> Finding:
     targets = [keys.act(robot, "doctor") for robot in robots] + [f"crew/{keys.crew}/*/@act/**", "**/@act/**", "crew/**"]
+    probe = b"%s (%s)" % (PROBE, identity.name.encode())
     for target in targets:
-        intruder.put(target, PROBE)
+        intruder.put(target, probe)
     await WALL.sleep(SETTLE_S)
-    got = [key for samples in heard.values() for key, payload in samples if payload == PROBE]
-    text = f"put on {len(targets)} actuation keys: {'; '.join(got) + ' ARRIVED' if got else 'nothing arrived'}"
+    got = {key for samples in heard.values() for key, payload in samples if payload == probe}
+    text = f"put on {len(targets)} actuation keys: {', '.join(sorted(got)) + ' ARRIVED' if got else 'nothing arrived'}"
     return _verdict(not got, identity.name, text)
 
 
