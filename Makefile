@@ -4,7 +4,7 @@ BIN := .venv/bin
 CREW ?= air_ground
 ARGS ?=
 
-.PHONY: help demo test check bench soak picture study smoke clean
+.PHONY: help demo test check bench soak picture study sdk smoke clean
 
 help:  ## this list
 	@grep -E '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):.*## */make \1\t/' | expand -t 14
@@ -37,6 +37,9 @@ study: .venv/.ready  ## the evaluation: accuracy and faults of air_ground; then 
 
 smoke: .venv/.ready  ## ask the Messages API at CREW_PLANNER_URL for a few plans
 	@$(BIN)/python -m tests.smoke.local_model
+
+sdk: .venv/.ready  ## the Unitree SDK over DDS, for its tests and the adapter's `sdk` back end
+	@.ci/sdk
 
 clean:  ## remove .venv, caches and build output; recorded runs stay
 	rm -rf .venv build dist robot_crew.egg-info

@@ -8,7 +8,7 @@ import time
 from collections.abc import Callable, Iterator
 from statistics import median
 
-from tests.bench import decision, proof, recorded, roundtrip, simulation
+from tests.bench import apartment, decision, proof, recorded, roundtrip, simulation
 
 CREW = [sys.executable, "-m", "crew"]
 
@@ -79,6 +79,12 @@ def proofs() -> Iterator[Row]:
     yield at_most("all shipped contracts proved, one mission", total_s, 10, "s")
 
 
+def second_testbed() -> Iterator[Row]:
+    """The humanoid and the quadruped."""
+    yield at_least("simulation of the apartment while walking", apartment.walking_pace(10.0), 8, "x")
+    yield at_most("inverse kinematics of an arm, one step, p50", apartment.arm_step_ms(), 0.5, "ms")
+
+
 def command_line() -> Iterator[Row]:
     """What a person waits for."""
     yield at_most("crew --help, median of 7", median(_timed([*CREW, "--help"]) for _ in range(7)), 0.3, "s")
@@ -120,6 +126,7 @@ SECTIONS: dict[str, Callable[[], Iterator[Row]]] = {
     "recording": recording,
     "simulation": simulated,
     "proofs": proofs,
+    "second_testbed": second_testbed,
     "command_line": command_line,
 }
 
