@@ -32,6 +32,7 @@ picture: .venv/.ready  ## make the README's picture anew: a run's page in a brow
 
 study: .venv/.ready  ## the evaluation: accuracy and faults of air_ground; then crew eval, if this version has it
 	$(BIN)/python -m crew.study.air_ground --out docs/study --runs runs/study
+	$(BIN)/python -m tests.study.humanoid_quadruped --out docs/study
 	@$(BIN)/crew eval --help >/dev/null 2>&1 || { echo "crew eval is not part of this version: no study was run" >&2; exit 2; }
 	$(BIN)/crew eval $(CREW) --arms all --planner embedded --seed 0 --out runs/study $(ARGS)
 

@@ -3,7 +3,7 @@
 import time
 from statistics import median
 
-from crew.adapters.unitree.kinematics import READY, Arm, between, hand_pose
+from crew.adapters.unitree.kinematics import READY, Arm, Joints, between, hand_pose
 from crew.sim.apartment.world import Apartment
 from crew.sim.config import WorldConfig
 from tests.integration.adapters.lockstep import free_port
@@ -28,7 +28,8 @@ def walking_pace(seconds: float) -> float:
 
 def arm_step_ms() -> float:
     """The median of one solver step along a way of the hand."""
-    arm, joints, times = Arm(), READY, []
+    arm, times = Arm(), list[float]()
+    joints: Joints = READY
     start, goal = arm.pose(READY), hand_pose((0.08, -0.47, 0.63), -1.4, 0.4)
     for step in range(STEPS):
         pose = between(start, goal, step / STEPS)

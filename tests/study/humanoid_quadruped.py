@@ -92,7 +92,7 @@ def _lines(results: Results) -> Iterator[str]:
     yield "# The humanoid and the quadruped in numbers"
     yield ""
     yield f"Made by `python -m tests.study.humanoid_quadruped` with version {results.version}: adapters and"
-    yield "simulation in lockstep, with the simulation's noise; the seed moves things and the person. Distances are horizontal, by the"
+    yield "simulation in lockstep, with noise; the seed moves things and the person. Distances are horizontal, by the"
     yield "simulation's truth, from the cube to the hand that the person holds out. Delivered: within 0.3 m, off the"
     yield "floor, and for carry felt by the tray's sensor on arrival."
     yield ""
@@ -104,7 +104,8 @@ def _lines(results: Results) -> Iterator[str]:
             away, lasted = [t.away_m for t in group], [t.mission_s for t in group]
             delivered = sum(t.delivered for t in group)
             distances = f"{mean(away):.3f} m, {max(away):.3f} m"
-            yield f"| {mission} | {len(group)} | {delivered} | {distances} | {mean(lasted):.0f} s, {max(lasted):.0f} s |"
+            times = f"{mean(lasted):.0f} s, {max(lasted):.0f} s"
+            yield f"| {mission} | {len(group)} | {delivered} | {distances} | {times} |"
     yield ""
     for t in results.trials:
         if not t.delivered:
