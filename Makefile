@@ -4,7 +4,7 @@ BIN := .venv/bin
 CREW ?= air_ground
 ARGS ?=
 
-.PHONY: help demo test check bench soak picture study sdk smoke clean
+.PHONY: help demo test check bench hostile soak picture study sdk smoke clean
 
 help:  ## this list
 	@grep -E '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):.*## */make \1\t/' | expand -t 14
@@ -23,6 +23,9 @@ check: .venv/.ready  ## formatting, lint, types, import layers
 
 bench: .venv/.ready  ## measure speed and latency
 	$(BIN)/python -m tests.bench $(ARGS)
+
+hostile: .venv/.ready  ## the twenty hostile cases, against crews that are up (docs/hostile-cases.md)
+	$(BIN)/python -m pytest -m hostile $(ARGS)
 
 soak: .venv/.ready  ## the long tests: those marked soak, and every property with many more examples
 	$(BIN)/python -m pytest -m "soak or hypothesis" --hypothesis-profile=soak $(ARGS)

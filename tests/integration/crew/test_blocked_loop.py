@@ -52,6 +52,7 @@ async def test_a_drone_whose_loop_is_blocked_stops_at_once(desk: Desk, block: Ca
         assert (ended.outcome, ended.code) == ("halted", "stopped")
 
 
+@pytest.mark.hostile
 async def test_a_latched_adapter_refuses_its_own_process_and_sends_nothing(desk: Desk) -> None:
     async with crew_with_threads(desk, "iris") as crew:
         watch, iris = crew.watch, crew.threads["iris"]

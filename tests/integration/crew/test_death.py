@@ -91,6 +91,7 @@ async def back_and_over_it(watch: Watch) -> None:
     raise AssertionError(f"not within 60 s: {answer}")
 
 
+@pytest.mark.hostile
 async def test_robots_of_a_killed_orchestrator_make_themselves_safe(desk: Desk, up: Up) -> None:
     epoch = desk.home.epoch("air_ground")
     async with both_moving(up) as watch:

@@ -224,11 +224,13 @@ TAMPERINGS: tuple[Tamper, ...] = (
 )
 
 
+@pytest.mark.hostile
 def test_a_run_that_nobody_touched_holds(copy: Copy, capsys: pytest.CaptureFixture[str]) -> None:
     assert run_verify(copy.folder, copy.folder.parent, None, as_json=False) == 0
     assert "PROBLEM" not in capsys.readouterr().out
 
 
+@pytest.mark.hostile
 @pytest.mark.parametrize("tamper", TAMPERINGS)
 def test_tampering_is_found_and_named(copy: Copy, tamper: Tamper, capsys: pytest.CaptureFixture[str]) -> None:
     named = tamper(copy)
