@@ -4,6 +4,7 @@ import hashlib
 import os
 import stat
 from contextlib import suppress
+from functools import lru_cache
 from pathlib import Path
 
 from cryptography.exceptions import InvalidSignature
@@ -33,12 +34,13 @@ class SigningKey:
 def verify(public: bytes, purpose: str, message: bytes, signature: bytes) -> bool:
     """Whether `signature` is the one of `message` for this purpose by the owner of `public`."""
     try:
-        Ed25519PublicKey.from_public_bytes(public).verify(signature, _bound(purpose, message))
+        _loaded(public).verify(signature, _bound(purpose, message))
     except (InvalidSignature, ValueError):
         return False
     return True
 
 
+@lru_cache(maxsize=64)
 def key_id(public: bytes) -> bytes:
     """Eight bytes that tell a public key from others; `fingerprint` shows the same to people."""
     return hashlib.sha256(public).digest()[:8]
@@ -74,6 +76,12 @@ def load_public_key(path: Path) -> bytes:
     if len(public) != KEY_BYTES:
         raise UsageError(f"no public key in {path}: {len(public)} bytes, not {KEY_BYTES}; copy the .pub file again")
     return public
+
+
+@lru_cache(maxsize=64)
+def _loaded(public: bytes) -> Ed25519PublicKey:
+    """A process verifies with very few keys, again and again."""
+    return Ed25519PublicKey.from_public_bytes(public)
 
 
 def _bound(purpose: str, message: bytes) -> bytes:

@@ -8,7 +8,7 @@ import time
 from collections.abc import Callable, Iterator
 from statistics import median
 
-from tests.bench import apartment, decision, proof, recorded, roundtrip, simulation
+from tests.bench import apartment, decision, proof, recorded, roundtrip, signature, simulation, stopping
 
 CREW = [sys.executable, "-m", "crew"]
 
@@ -47,6 +47,20 @@ def decisions() -> Iterator[Row]:
     yield at_most("gate decision appended to the journal's queue, p50", median(times_us), 50, "us")
     yield at_most("  the same, p99", sorted(times_us)[int(len(times_us) * 0.99)], 1000, "us")
     yield at_most("  commit of a record, p50 (apart)", median(commits_ms), 20, "ms")
+
+
+def signatures() -> Iterator[Row]:
+    """The message lock alone."""
+    times_us = signature.measure(4000)
+    yield at_most("permit signed and verified, p50", median(times_us), 250, "us")
+
+
+def stops() -> Iterator[Row]:
+    """The stop under load: a command flood, a loop blocked half of the time, a burning core."""
+    times_ms = sorted(stopping.measure(200))
+    yield at_most("stop's put to the halt at the vehicle's socket, p99 of 200", times_ms[197], 100, "ms")
+    yield at_most("  the same, p50", median(times_ms), 100, "ms")
+    yield at_most("  the same, slowest", times_ms[-1], 1000, "ms")
 
 
 def round_trips() -> Iterator[Row]:
@@ -122,6 +136,8 @@ def _ready_s(folder: str, environment: dict[str, str]) -> float:
 
 SECTIONS: dict[str, Callable[[], Iterator[Row]]] = {
     "decisions": decisions,
+    "signatures": signatures,
+    "stops": stops,
     "round_trips": round_trips,
     "recording": recording,
     "simulation": simulated,
