@@ -68,6 +68,7 @@ def rows(scene: Scene, tmp_path_factory: pytest.TempPathFactory) -> list[Row]:
     return [*strangers.attacks(scene, tmp_path_factory.mktemp("strangers")), *insiders.attacks(scene)]
 
 
+@pytest.mark.hostile
 def test_nothing_of_any_attack_arrives_and_the_rightful_message_does(rows: list[Row]) -> None:
     assert [row.line() for row in rows if not row.holds] == []
     assert not [row.line() for row in rows if "CHANGE" in row.operator_sees or "MATCHES" in row.attacker_sees]

@@ -202,6 +202,7 @@ async def test_missions_of_different_robots_run_side_by_side(watch: Watch) -> No
     assert (await watch.ended(search)).outcome == "completed"
 
 
+@pytest.mark.hostile
 async def test_a_mission_waits_for_a_robot_that_another_holds(watch: Watch) -> None:
     first = watch.ask(FAR_DRIVE)
     await watch.moving("tb3")

@@ -65,6 +65,7 @@ def test_it_runs_in_a_single_process_too(desk: Desk) -> None:
     assert demo.result["goal_error_m"] < 0.6
 
 
+@pytest.mark.hostile
 @pytest.mark.parametrize("fault", ["missed_detection", "nan_transmission"])
 def test_without_a_usable_fix_the_rover_stays_and_the_drone_lands(desk: Desk, fault: str) -> None:
     demo = desk.demo("--fault", fault, "--request", NEAR)

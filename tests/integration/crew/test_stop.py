@@ -108,6 +108,7 @@ async def test_one_message_stops_everything_in_mid_mission(watch: Watch, desk: D
     await watch.drives()
 
 
+@pytest.mark.hostile
 async def test_while_latched_nothing_is_accepted_by_anybody(watch: Watch, desk: Desk, up: Up) -> None:
     sent = len(intents(up.run))
     await stopped(watch, Stop(by="operator"))

@@ -169,6 +169,7 @@ def test_a_permit_survives_the_wire_whatever_the_arguments() -> None:
     assert permit_problem(heard, "crew", STRANGER.public) is None
 
 
+@pytest.mark.hostile
 async def test_a_captured_permit_is_good_for_nothing_later(stage: RobotStage) -> None:
     captured = stage.dispatch()
     stage.send(captured)

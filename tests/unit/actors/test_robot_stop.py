@@ -301,6 +301,7 @@ async def test_a_robot_that_starts_while_the_crew_is_stopped_comes_up_latched_an
         assert (await stage.heard("refused", "accepted")).code == "stopped"
 
 
+@pytest.mark.hostile
 async def test_a_robot_that_missed_the_stop_is_latched_by_the_next_heartbeat(stage: RobotStage) -> None:
     stage.fabric.drop_next(stage.keys.stop)
     await stage.started()
