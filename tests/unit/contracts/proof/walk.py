@@ -1,7 +1,8 @@
 """Random missions of the real machine and the real gate in a world of their own, held against what was proved.
 
 The world here is written anew: robots that change their fluents while they work, outcomes in any order, stops, losses.
-It shares the declarations of skills with the proof, and nothing else of how a world behaves.
+It shares the declarations of skills with the proof, and the assumption that different names are different places (a
+person does not stand at a named one); nothing else of how a world behaves.
 """
 
 from collections import defaultdict
@@ -311,7 +312,8 @@ class Walk:
             source = min(self.rules.publishers_of(name), default="")
             if not source or self.chance.random() < bad:
                 continue
-            place = self.chance.choice([*(p.name for p in self.rules.crew.locations), ""])
+            is_thing = any(thing.name == name for thing in self.rules.crew.objects)
+            place = self.chance.choice([*(p.name for p in self.rules.crew.locations), ""]) if is_thing else ""
             if of is not None and (puts := self._skill(of).puts) is not None and of.args[puts[0]] == name:
                 place = str(of.args[puts[1]])
             location = self.rules.crew.location(place)
