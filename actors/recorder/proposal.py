@@ -73,7 +73,7 @@ def _instance_table(mission: MissionState, rules: Rules) -> Iterator[str]:
     yield "|---|---|---|"
     for step in mission.instance.steps:
         record = mission.steps[step.step]
-        code = f" `{quoted(record.code, 60)}`" if record.code else ""
+        code = f" {quoted(record.code, 60)}" if record.code else ""
         call = quoted(f"{step.call.robot}.{step.call.skill}")
         yield f"| {quoted(step.step, 60)} | {call} | {_WORDS[record.phase]}{code} |"
     yield ""

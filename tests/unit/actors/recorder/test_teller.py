@@ -58,7 +58,7 @@ def test_every_decision_of_the_journal_is_a_line(name: str) -> None:
 def test_the_proposal_names_each_argument_with_its_source_and_how_its_step_went() -> None:
     documents = [e.markdown for e in told("halted") if isinstance(e, Document)]
     last = documents[-1]
-    assert "| dispatch | tb3.navigate\\_to | **refused** `no\\_target\\_fix` |" in last
+    assert "| dispatch | tb3.navigate\\_to | **refused** no\\_target\\_fix |" in last
     assert "**halted**" in last
     assert "takeoff altitude = **5**: chosen by the planner" in last
     assert "navigate\\_to target = **victim**" in last
