@@ -33,11 +33,9 @@ soak: .venv/.ready  ## the long tests: those marked soak, and every property wit
 picture: .venv/.ready  ## make the README's picture anew: a run's page in a browser (needs Chromium)
 	$(BIN)/python -m tests.integration.recorder.picture docs/images/replay.png
 
-study: .venv/.ready  ## the evaluation: accuracy and faults of air_ground; then crew eval, if this version has it
+study: .venv/.ready  ## accuracy and faults of air_ground, deliveries of humanoid_quadruped, by seed, into docs/study
 	$(BIN)/python -m crew.study.air_ground --out docs/study --runs runs/study
 	$(BIN)/python -m tests.study.humanoid_quadruped --out docs/study
-	@$(BIN)/crew eval --help >/dev/null 2>&1 || { echo "crew eval is not part of this version: no study was run" >&2; exit 2; }
-	$(BIN)/crew eval $(CREW) --arms all --planner embedded --seed 0 --out runs/study $(ARGS)
 
 smoke: .venv/.ready  ## ask the Messages API at CREW_PLANNER_URL for a few plans
 	@$(BIN)/python -m tests.smoke.local_model
