@@ -45,6 +45,7 @@ class Desk:
         self.folder = folder
         self.home = Home(folder / "home")
         self.runs = folder / "runs"
+        self._spawned: list[Up] = []
         self.env = {**os.environ, "CREW_HOME": str(self.home.path), "PYTHONUNBUFFERED": "1"}
 
     def crew(self, *args: str, timeout_s: float = MISSION_S) -> "subprocess.CompletedProcess[str]":
@@ -71,7 +72,15 @@ class Desk:
 
     def spawn(self, *args: str) -> "Up":
         """A command that goes on in the background."""
-        return Up(self, args)
+        self._spawned.append(Up(self, args))
+        return self._spawned[-1]
+
+    def end_all(self) -> None:
+        """Kill what a failed test has left running; its crew dies with it."""
+        for up in self._spawned:
+            if up.process.poll() is None:
+                up.process.kill()
+                up.process.wait()
 
 
 class Demo(msgspec.Struct, frozen=True):

@@ -50,6 +50,8 @@ def crew_file(folder: Path, ports: dict[str, int]) -> Path:
     text = (CREWS / f"{NAME}.yaml").read_text()
     for name, port in ports.items():
         text = text.replace(f"    sim: {name}\n", f'    connection: "udpin:127.0.0.1:{port}"\n')
+    text = text.replace("options: {", "options: {allow_unsigned: true, ")
+    text = text.replace("aliases: [turtlebot3]\n", "aliases: [turtlebot3]\n    options: {allow_unsigned: true}\n")
     lat, lon, alt = site.origin
     text = text.replace(
         "sim: {scene: air_ground, map: A}\n", f"origin: {{lat_deg: {lat}, lon_deg: {lon}, alt_m: {alt}}}\n"
