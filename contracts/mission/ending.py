@@ -16,7 +16,7 @@ _ENDED = {Phase.HALTING: Phase.HALTED, Phase.CANCELLING: Phase.CANCELLED}
 
 def end_now(state: MissionState, phase: Phase, message: str) -> Result:
     """End a mission that has nothing in flight."""
-    return replace(state, phase=phase, message=message), (ev.Finish(),)
+    return replace(state, phase=phase, message=message, question=None), (ev.Finish(),)
 
 
 def halt(state: MissionState, message: str, contracts: Mapping[str, Contract], phase: Phase = Phase.HALTING) -> Result:
