@@ -28,8 +28,9 @@ def runs(desk: Desk) -> dict[str, Path]:
     return {name: demo.run for name, demo in demos.items()}
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def viewer() -> Iterator[Viewer]:
+    """One browser for one module: while it is open, an event loop of its own runs on this thread."""
     with Viewer.opened() as viewer:
         yield viewer
 
