@@ -98,8 +98,9 @@ def change_a_time(copy: Copy) -> str:
 
 
 def change_a_kind(copy: Copy) -> str:
-    copy.sql("UPDATE record SET kind = 'note' WHERE seq = 5")
-    return "record 5 was altered"
+    seq = copy.first_of(DecisionRecord)
+    copy.sql("UPDATE record SET kind = 'note' WHERE seq = ?", seq)
+    return f"record {seq} was altered"
 
 
 def change_a_columns_type(copy: Copy) -> str:
