@@ -12,7 +12,7 @@ from crew.contracts.render.prompt import Context
 from crew.errors import UsageError, nearest
 from crew.library import read_text
 
-PLANNERS = ("anthropic", "compatible", "embedded", "recorded", "script")
+PLANNERS = ("anthropic", "compatible", "embedded", "fallible", "recorded", "script")
 MODELS = ("anthropic", "compatible")
 
 

@@ -34,6 +34,8 @@ def make_backend(choice: PlannerChoice, rules: Rules, environment: Mapping[str, 
     match choice.name:
         case "embedded":
             return EmbeddedBackend(rules)
+        case "fallible":
+            return _fallible_backend(rules, Context(choice.context))
         case "script":
             return ScriptBackend(read_script(Path(choice.script)))
         case "recorded":
@@ -41,6 +43,14 @@ def make_backend(choice: PlannerChoice, rules: Rules, environment: Mapping[str, 
     endpoint = endpoint_of(choice)
     model = _model_backend(endpoint, key_of(endpoint, environment), rules, Context(choice.context))
     return FallbackBackend(model, EmbeddedBackend(rules)) if choice.fallback else model
+
+
+def _fallible_backend(rules: Rules, context: Context) -> Backend:
+    from crew.actors.planner.fallible import FallibleBackend
+
+    if rules.crew.sim is None:
+        raise UsageError("--planner fallible errs on purpose; it plans for simulated robots only")
+    return FallibleBackend(rules, context, rules.crew.sim.seed)
 
 
 def _model_backend(endpoint: Endpoint, key: str, rules: Rules, context: Context) -> Backend:
