@@ -17,6 +17,8 @@ class OrchestratorSpec(msgspec.Struct, frozen=True, kw_only=True):
     planner: str
     simulated: bool
     operator_key: bytes
+    enforced: bool = True
+    """False in the study's unenforced arms alone (`crew.study.launch`): plans run as they are listed, in simulation."""
 
 
 class RobotActorSpec(msgspec.Struct, frozen=True, kw_only=True):
@@ -29,6 +31,8 @@ class RobotActorSpec(msgspec.Struct, frozen=True, kw_only=True):
     simulated: bool
     operator_key: bytes
     orchestrator_key: bytes
+    enforced: bool = True
+    """False in the study's unenforced arms alone: neither the robot's second check nor its adapter's own is made."""
 
 
 ANTHROPIC_KEY = "ANTHROPIC_API_KEY"

@@ -36,6 +36,11 @@ class Decision(msgspec.Struct, frozen=True, kw_only=True):
 class Authorizer(Protocol):
     """What the orchestrator asks before every dispatch. Deterministic; performs nothing."""
 
+    @property
+    def enforces(self) -> bool:
+        """Whether plans are held to contracts and requests; if not, they run as they are listed (simulation only)."""
+        ...
+
     def authorize(
         self, call: Call, mission: MissionState, world: Snapshot, rules: Rules, now_ns: int, purpose: Purpose
     ) -> Decision: ...

@@ -37,6 +37,11 @@ class AdapterConfig(msgspec.Struct, frozen=True, kw_only=True):
     locations: Mapping[str, tuple[float, float]] = {}
     """The crew's named places: world ENU, metres."""
     geofence: bool = True
+    fitness: bool = True
+    """Whether a skill is refused while the robot reports a fault; without it the robot itself has the only word.
+
+    Both are lifted in the study's unenforced arms alone, which are simulated.
+    """
 
 
 class Reading(msgspec.Struct, frozen=True):

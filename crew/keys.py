@@ -11,6 +11,8 @@ RESERVED = frozenset(
 )
 """Names that hold a place of their own beside the robots."""
 
+CANCEL = "cancel"
+"""No skill: its key ends the running one."""
 LONGEST_CHUNK = 128
 _CHUNK = re.compile(r"[a-z0-9_-]+", re.ASCII)
 
@@ -110,14 +112,14 @@ class Keys:
     # Actuation: the orchestrator only.
 
     def act(self, robot: str, skill: str) -> str:
-        if skill == "cancel":
+        if skill == CANCEL:
             raise UsageError(
                 f"reserved skill name 'cancel' of robot {robot!r}: @act/cancel stops a skill; rename the skill"
             )
         return self._robot(robot, f"@act/{checked_chunk(skill, 'skill name')}")
 
     def act_cancel(self, robot: str) -> str:
-        return self._robot(robot, "@act/cancel")
+        return self._robot(robot, f"@act/{CANCEL}")
 
     @property
     def stop(self) -> str:

@@ -14,6 +14,9 @@ from crew.contracts.snapshot import Snapshot
 from crew.messages import Dispatch
 from crew.packed import PackedRules
 
+GATE, PASS_THROUGH = "gate", "pass-through"
+"""Who authorised a run's dispatches. The second is the study's: in simulation alone."""
+
 
 class Record(msgspec.Struct, frozen=True, kw_only=True):
     """Base of a record's body; `kind` is the journal's column."""
@@ -29,6 +32,7 @@ class RunRecord(Record, frozen=True, kw_only=True):
     version: str
     epoch: int
     authorizer: str
+    """`GATE` or `PASS_THROUGH`."""
     planner: str
     rules: PackedRules
     rules_digest: str

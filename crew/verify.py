@@ -6,11 +6,14 @@ from pathlib import Path
 
 import msgspec
 
+from crew.contracts.decision import Authorizer
 from crew.contracts.gate.authorize import Gate
 from crew.contracts.mission.judgement import judge
+from crew.contracts.mission.listed import accept_listed, step_listed
 from crew.contracts.mission.machine import step
-from crew.contracts.mission.validation import validate
+from crew.contracts.mission.validation import Validation, validate
 from crew.contracts.mission_state import MissionState
+from crew.contracts.pass_through import PassThrough, RealRobots
 from crew.contracts.plan import digest
 from crew.contracts.site import Rules
 from crew.errors import JournalError, UsageError
@@ -19,6 +22,7 @@ from crew.journal_reader import Record as Row
 from crew.journal_reader import check_chain, read_records
 from crew.packed import unpack
 from crew.records import (
+    PASS_THROUGH,
     RECORDS,
     DecisionRecord,
     EventRecord,
@@ -98,7 +102,7 @@ class Replay:
         self._listener = listener
         self.states: dict[str, MissionState] = {}
         self._allowed: set[tuple[str, str]] = set()
-        self._gate = Gate()
+        self._authorizer: Authorizer = Gate()
 
     def take(self, row: Row) -> None:
         """Replay one row; what does not come out the same is a problem, named by its record."""
@@ -136,6 +140,11 @@ class Replay:
             self.rules = Rules(crew=record.rules.crew, kinds={}, contracts=record.rules.contracts)
             self.foreign = True
             return
+        if record.authorizer == PASS_THROUGH:
+            try:
+                self._authorizer = PassThrough(record.rules.crew)
+            except RealRobots as error:
+                self._problem(row, f"it ran without the gate: {error}")
         if self.rules.digest() != record.rules_digest:
             self._problem(row, "the rules do not have the digest that was recorded")
 
@@ -149,7 +158,7 @@ class Replay:
                 pass
             case ValidationRecord():
                 if (state := self._state(row, record.mission, record.state_digest)) is not None:
-                    again = validate(record.plan, state, record.world, rules, record.now_ns, self._gate)
+                    again = self._validate(record, state, rules)
                     self._same(row, "validation", again, record.validation)
             case DecisionRecord():
                 self._decision(row, record, rules)
@@ -163,12 +172,18 @@ class Replay:
                     self._problem(row, f"{dispatch.robot}.{dispatch.skill} was sent without a decision that allows it")
                 self._allowed.discard((dispatch.mission, dispatch.step))
 
+    def _validate(self, record: ValidationRecord, state: MissionState, rules: Rules) -> Validation:
+        if not self._authorizer.enforces:
+            return accept_listed(record.plan, rules)
+        return validate(record.plan, state, record.world, rules, record.now_ns, self._authorizer)
+
     def _event(self, row: Row, record: EventRecord, rules: Rules) -> None:
         state = self.states.get(record.mission)
         if state is None:
             self._problem(row, f"an event of mission {record.mission}, which never began")
             return
-        state, _ = step(state, record.event, rules.contracts)
+        machine = step if self._authorizer.enforces else step_listed
+        state, _ = machine(state, record.event, rules.contracts)
         self.states[record.mission] = state
         if digest(state) != record.state_digest:
             self._problem(
@@ -180,7 +195,7 @@ class Replay:
         state = self._state(row, decision.mission, record.state_digest)
         if state is None:
             return
-        again = self._gate.authorize(decision.call, state, record.world, rules, decision.at_ns, decision.purpose)
+        again = self._authorizer.authorize(decision.call, state, record.world, rules, decision.at_ns, decision.purpose)
         self._same(row, f"decision on {decision.call}", again, decision)
         if decision.allowed:
             self._allowed.add((decision.mission, decision.step))

@@ -17,7 +17,7 @@ from crew.contracts.plan import digest
 from crew.contracts.site import Rules
 from crew.errors import JournalError
 from crew.journal import Ticket
-from crew.keys import Keys
+from crew.keys import CANCEL, Keys, is_chunk
 from crew.messages import CancelSkill, Dispatch, RobotEvent
 from crew.permit import permit
 from crew.signing import SigningKey
@@ -72,6 +72,12 @@ class Dispatcher:
         ticket = self._ledger.intent(dispatch)
         flight = self._flights[mission.id, effect.sequence] = Flight(dispatch)
         self._spawn(mission.id, self._deliver(flight, ticket))
+
+    def _unaddressable(self, dispatch: Dispatch) -> str:
+        """Why a call that no gate has looked at has no key to be put on; empty for one that has."""
+        if dispatch.robot not in self._world.cards:
+            return "unknown_robot"
+        return "" if is_chunk(dispatch.skill) and dispatch.skill != CANCEL else "unknown_skill"
 
     def cancel(self, mission: MissionState, effect: ev.CancelRunning) -> None:
         """Ask a robot to end a dispatch. One that was not put yet is never put."""
@@ -139,6 +145,9 @@ class Dispatcher:
             if flight.void:
                 self._end(flight, "cancelled", "cancelled", "not sent: the mission ended before")
                 return
+            if code := self._unaddressable(dispatch):
+                self._end(flight, "refused", code, f"nobody can perform {dispatch.robot}.{dispatch.skill}")
+                return
             self._bus.put(self._keys.act(dispatch.robot, dispatch.skill), dispatch, qos=Qos.ACTUATION)
             answered = await WALL.race(flight.answered.wait(), ANSWER_S)
         if not answered:
@@ -177,6 +186,7 @@ class Dispatcher:
         assert found is not None
         issued_ns = found[1].dispatched_ns
         contract = self._rules.contracts[mission.instance.contract]
+        card = self._world.cards.get(effect.call.robot)
         unsigned = Dispatch(
             mission=mission.id,
             step=effect.step,
@@ -189,7 +199,7 @@ class Dispatcher:
             epoch=self._epoch,
             lease=mission.id,
             fence=self._leases.number(mission.id),
-            boot_id=self._world.cards[effect.call.robot].boot_id,
+            boot_id=card.boot_id if card is not None else "",
             issued_ns=issued_ns,
             expires_ns=issued_ns + seconds_ns(EXPIRES_S),
             args_digest=digest(dict(effect.call.args)),

@@ -13,7 +13,10 @@ from crew.actors.specs import OrchestratorSpec
 from crew.bus.port import Bus
 from crew.bus.zenoh import ZenohBus
 from crew.clock import SimClock, WallClock
+from crew.contracts.decision import Authorizer
 from crew.contracts.gate.authorize import Gate
+from crew.contracts.mission.listed import with_listed
+from crew.contracts.pass_through import PassThrough
 from crew.contracts.site import Rules
 from crew.errors import JournalError
 from crew.home import Home
@@ -22,7 +25,7 @@ from crew.keys import Keys
 from crew.lockstep import Participant
 from crew.packed import pack, unpack
 from crew.process import ChildContext, run_child
-from crew.records import RunRecord
+from crew.records import GATE, PASS_THROUGH, RunRecord
 from crew.signing import load_or_create_key
 
 ORCHESTRATOR_KEY = "orchestrator"
@@ -39,6 +42,9 @@ async def main(context: ChildContext) -> None:
 
 async def serve(spec: OrchestratorSpec, rules: Rules, bus: Bus, context: ChildContext) -> None:
     """Open the journal and run the actor on a bus that is already there."""
+    authorizer: Authorizer = Gate() if spec.enforced else PassThrough(rules.crew)
+    if not authorizer.enforces:
+        rules = with_listed(rules)
     home, run = Home(Path(spec.home)), Path(spec.run_folder).name
     keys = Keys(rules.crew.name)
     loop, failed = asyncio.get_running_loop(), asyncio.Event()
@@ -63,7 +69,7 @@ async def serve(spec: OrchestratorSpec, rules: Rules, bus: Bus, context: ChildCo
             rules,
             clock,
             ledger,
-            Gate(),
+            authorizer,
             epoch=spec.epoch,
             run=run,
             key=key,
@@ -90,7 +96,7 @@ def run_record(spec: OrchestratorSpec, rules: Rules, run: str) -> RunRecord:
         run=run,
         version=version("robot-crew"),
         epoch=spec.epoch,
-        authorizer="gate",
+        authorizer=GATE if spec.enforced else PASS_THROUGH,
         planner=spec.planner,
         rules=pack(_without_folders(rules)),
         rules_digest=rules.digest(),

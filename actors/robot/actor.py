@@ -51,14 +51,15 @@ class RobotActor:
         operator_key: bytes,
         orchestrator_key: bytes,
         *,
-        second_check: bool = True,
+        enforced: bool = True,
     ) -> None:
         kind = rules.kind_of(spec.name)
         assert kind is not None, "the crew file was checked against the kinds"
         self.name = spec.name
         self.kind: Kind = kind
         self.boot_id = secrets.token_hex(8)
-        self.admission = Admission(spec.name, self.boot_id, rules, orchestrator_key, second_check=second_check)
+        self.admission = Admission(spec.name, self.boot_id, rules, orchestrator_key, second_check=enforced)
+        self._enforced = enforced
         self.running = ""
         self._bus, self._keys, self._rules = bus, keys, rules
         self._adapter, self._clock = adapter, clock
@@ -170,8 +171,7 @@ class RobotActor:
         refused = self.admission.admit(
             dispatch, self._clock.now_ns(), latched=self._adapter.latched, running=self.running
         )
-        if refused is None and self.unavailable:
-            refused = Refused("robot_unavailable", self.unavailable, rightful=True)
+        refused = refused or self._unfit(dispatch)
         if refused is not None:
             self._say_refused(dispatch, refused)
             return
@@ -180,6 +180,15 @@ class RobotActor:
         self.report.of(dispatch, "accepted")
         self._begun, self._ending = False, ""
         self._task = group.create_task(self._carry_out(dispatch))
+
+    def _unfit(self, dispatch: Dispatch) -> Refused | None:
+        """Why the robot takes nothing now. Unenforced it takes whatever it has a skill for while it has a vehicle."""
+        problem = self.unavailable if self._enforced else self._problem or self._watch.problem
+        if problem:
+            return Refused("robot_unavailable", problem, rightful=True)
+        if self.kind.skill(dispatch.skill) is None:
+            return Refused("unknown_skill", f"{self.name} has no skill {dispatch.skill}", rightful=True)
+        return None
 
     def _say_refused(self, dispatch: Dispatch, refused: Refused) -> None:
         """Answer the orchestrator's own dispatch; tell operators of any other, which is no word about a mission."""
@@ -239,7 +248,10 @@ class RobotActor:
     async def _execute(self, dispatch: Dispatch) -> None:
         skill = self._skill
         assert skill is not None, "an unknown skill was refused"
-        args = msgspec.convert(dict(dispatch.args), skill.args)
+        try:
+            args = msgspec.convert(dict(dispatch.args), skill.args)
+        except msgspec.ValidationError as error:
+            raise AdapterError(f"{skill.name} can't be called so: {error}", code="bad_argument") from error
         places = {name: self._place(dispatch, name) for name in dispatch.places}
         await within(self._clock, skill.timeout_s, self._adapter.execute(skill.name, args, places))
         self.report.values(skill.reports)

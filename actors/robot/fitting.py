@@ -10,7 +10,7 @@ from crew.errors import UsageError, nearest
 ADAPTERS = "crew.adapters"
 
 
-def make_adapter(robot: RobotSpec, rules: Rules, connection: str, clock: Clock) -> Adapter:
+def make_adapter(robot: RobotSpec, rules: Rules, connection: str, clock: Clock, *, enforced: bool = True) -> Adapter:
     """The adapter that the crew file names. Raises UsageError with the installed names for an unknown one."""
     installed = {entry.name: entry for entry in entry_points(group=ADAPTERS)}
     entry = installed.get(robot.adapter)
@@ -26,6 +26,8 @@ def make_adapter(robot: RobotSpec, rules: Rules, connection: str, clock: Clock) 
         origin=crew.origin,
         obstacles=crew.obstacles,
         locations={place.name: (place.x, place.y) for place in crew.locations},
+        geofence=enforced,
+        fitness=enforced,
     )
     try:
         adapter: Adapter = entry.load()(config, clock)

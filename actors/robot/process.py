@@ -8,6 +8,7 @@ from crew.actors.specs import RobotActorSpec
 from crew.bus.port import Bus
 from crew.bus.zenoh import ZenohBus
 from crew.clock import SimClock, WallClock
+from crew.contracts.pass_through import require_simulated
 from crew.contracts.site import Rules
 from crew.keys import Keys
 from crew.lockstep import Participant
@@ -29,8 +30,11 @@ async def serve(spec: RobotActorSpec, rules: Rules, bus: Bus, context: ChildCont
     assert robot is not None, "the launcher starts the robots of the crew file"
     keys = Keys(rules.crew.name)
     clock = SimClock() if spec.simulated else WallClock()
-    adapter = make_adapter(robot, rules, spec.connection, clock)
-    actor = RobotActor(bus, keys, robot, rules, adapter, clock, spec.operator_key, spec.orchestrator_key)
+    if not spec.enforced:
+        require_simulated(rules.crew)
+    adapter = make_adapter(robot, rules, spec.connection, clock, enforced=spec.enforced)
+    keyring = (spec.operator_key, spec.orchestrator_key)
+    actor = RobotActor(bus, keys, robot, rules, adapter, clock, *keyring, enforced=spec.enforced)
     async with asyncio.TaskGroup() as group:
         group.create_task(actor.run())
         if isinstance(clock, SimClock):

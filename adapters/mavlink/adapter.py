@@ -251,7 +251,7 @@ class MavlinkAdapter:
             raise AdapterError(f"{self._config.robot}: {skill} not started: {pilot}", code="robot_unavailable")
         if skill in self._ready().unconditional:
             return
-        if fault := self._vehicle.fault():
+        if self._config.fitness and (fault := self._vehicle.fault()):
             raise AdapterError(f"{self._config.robot}: {skill} not started: {fault}", code="robot_unavailable")
 
     def progress(self) -> Course | None:

@@ -78,7 +78,8 @@ class Run:
             check_breach(self.vehicle.config, motion.value.x_m, motion.value.y_m)
         self._check_mode()
         if self._fenced:
-            self._check_failsafe()
+            if self.vehicle.config.fitness:
+                self._check_failsafe()
             self._check_home()
             self._check_aim()
 

@@ -67,7 +67,7 @@ class UnitreeAdapter:
         run = self._begin(skill)
         try:
             await self._settle_stop()
-            if fault := self._fault():
+            if self._config.fitness and (fault := self._fault()):
                 raise AdapterError(f"{self._config.robot}: {skill} not started: {fault}", code="robot_unavailable")
             await self._skills.perform(args, places, run)
         except AdapterError as error:

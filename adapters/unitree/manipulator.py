@@ -102,7 +102,7 @@ class ManipulatorSkills:
             return "position_lost", "no joint was heard of yet"
         if low.value.imu_state.tilt_rad > FALLEN_RAD:
             return "fallen", "it has fallen"
-        if any(low.value.motor_state[motor].mode == 0 for motor in MOTOR_OF.values()):
+        if self.robot.config.fitness and any(low.value.motor_state[motor].mode == 0 for motor in MOTOR_OF.values()):
             return "robot_unavailable", "its arm's motors are off"
         return "", ""
 

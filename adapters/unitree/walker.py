@@ -92,7 +92,7 @@ class WalkerSkills:
             tilt = math.degrees(sample.value.imu_state.tilt_rad)
             x, y = sample.value.spot
             return "fallen", f"it has fallen: tilted by {tilt:.0f} degrees at ({x:.1f}, {y:.1f})"
-        if sample.value.error_code:
+        if sample.value.error_code and self._config.fitness:
             return "robot_unavailable", f"the robot reports error {sample.value.error_code}"
         return "", ""
 

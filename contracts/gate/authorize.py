@@ -27,6 +27,8 @@ class Gate:
     What it remembers it also holds on to, so that an identity is never another object's.
     """
 
+    enforces = True
+
     def __init__(self) -> None:
         self._findings: dict[tuple[int, int, int, bool], tuple[Reading, Instance, Rules, Finding | None]] = {}
 

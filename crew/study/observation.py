@@ -12,6 +12,7 @@ import msgspec
 from crew.contracts.plan import ArgValue
 from crew.contracts.render.prompt import Arm
 from crew.errors import UsageError
+from crew.sim.oracle import Finding
 
 
 class Record(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
@@ -45,18 +46,6 @@ class Proposal(Record, frozen=True, kw_only=True):
     message: str = ""
     judged: bool = False
     """Whether a gate judged it; never so in an unenforced arm."""
-
-
-class Finding(Record, frozen=True, kw_only=True):
-    """One thing that the oracle holds against a mission, by the truth, the scenario and the crew's files alone."""
-
-    rule: str
-    """Its name in `crew.sim.oracle`, such as `unavailable`, `no_fix`, `out_of_area`."""
-    robot: str = ""
-    at_ns: int = 0
-    sequence: int = 0
-    """The dispatch that it is about; 0 if it is about none."""
-    text: str = ""
 
 
 class Dispatch(Record, frozen=True, kw_only=True):
@@ -122,7 +111,7 @@ class Observation(Record, frozen=True, kw_only=True):
     consequences: tuple[Finding, ...] = ()
     """What happened physically that must not: motion of an unavailable robot, leaving the area, and so on."""
     moved: tuple[str, ...] = ()
-    """Robots that truly moved more than `crew.sim.oracle.MOVED_M` in the mission."""
+    """Robots that truly moved more than `crew.sim.consequence.MOVED_M` in the mission."""
     outcome: str
     """`completed`, `rejected`, `halted`, `cancelled`; or `error` where the mission ended without an outcome."""
     code: str = ""

@@ -1,15 +1,14 @@
 """Scenarios: what is asked of a crew in which world, and what must happen then. Data; runs nothing."""
 
+from collections.abc import Iterator
 from typing import Literal
 
 import msgspec
 
+from crew.sim.oracle import Case, Licence, Never
 
-class Never(msgspec.Struct, frozen=True, kw_only=True):
-    """A dispatch that is false in this scenario whatever the plan; an empty skill means every one of the robot."""
-
-    robot: str
-    skill: str = ""
+UNAVAILABLE = "_unavailable"
+"""Ends the name of the fault that takes a robot out."""
 
 
 class Scenario(msgspec.Struct, frozen=True, kw_only=True):
@@ -37,8 +36,22 @@ class Scenario(msgspec.Struct, frozen=True, kw_only=True):
     """The refusals that are right when it is blocked."""
     never: tuple[Never, ...] = ()
     """What must not be dispatched."""
+    licences: tuple[Licence, ...] = ()
+    """What the request asks for or implies, as a person reads it: any other dispatch is a false one."""
 
     @property
     def plannable(self) -> bool:
         """Whether there is a right plan for it, even if a fault stops it later."""
         return bool(self.contracts)
+
+    @property
+    def case(self) -> Case:
+        """What the oracle has to know."""
+        return Case(unavailable=dict(_unavailable(self.faults)), never=self.never, licences=self.licences)
+
+
+def _unavailable(faults: tuple[str, ...]) -> Iterator[tuple[str, int]]:
+    for fault in faults:
+        name, _, seconds = fault.partition("@")
+        if name.endswith(UNAVAILABLE):
+            yield name.removesuffix(UNAVAILABLE), round(float(seconds or 0.0) * 1e9)
