@@ -12,7 +12,7 @@ import msgspec
 from crew.contracts.plan import ArgValue
 from crew.contracts.render.prompt import Arm
 from crew.errors import UsageError
-from crew.sim.oracle import Finding
+from crew.sim.oracle import Finding as Finding
 
 
 class Record(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):

@@ -5,7 +5,8 @@ from typing import Literal
 
 import msgspec
 
-from crew.sim.oracle import Case, Licence, Never
+from crew.sim.oracle import Case, Licence
+from crew.sim.oracle import Never as Never
 
 UNAVAILABLE = "_unavailable"
 """Ends the name of the fault that takes a robot out."""
