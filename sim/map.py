@@ -3,7 +3,6 @@
 World frame: ENU, metres, z up, ground at z = 0; yaw in radians, counter-clockwise from east.
 """
 
-import difflib
 import math
 from collections.abc import Iterator
 from pathlib import Path
@@ -13,6 +12,8 @@ import msgspec
 from msgspec import Meta
 from ruamel.yaml import YAML
 from ruamel.yaml.error import YAMLError
+
+from crew.errors import nearest
 
 MAPS = Path(__file__).parent / "maps"
 
@@ -132,13 +133,17 @@ class Map(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True)
 
 def load_map(scene: str, name: str, folder: Path = MAPS) -> Map:
     """Read the map `name` of `scene`. Raises MapError; an unknown name lists the maps that exist."""
-    path = folder / f"{scene}_{name.lower()}.yaml"
-    if not path.is_file():
-        known = sorted(p.stem for p in folder.glob("*.yaml"))
-        near = difflib.get_close_matches(path.stem, known, n=1)
-        hint = f"; did you mean {near[0]}?" if near else ""
-        raise MapError(f"no map {path.stem}; there are: {', '.join(known)}{hint}")
+    path = map_file(scene, name, folder)
     return parse_map(path.read_text(encoding="utf-8"), source=path.name)
+
+
+def map_file(scene: str, name: str, folder: Path = MAPS) -> Path:
+    """The file of a scene's map; upper and lower case are one. Raises MapError with those that the scene has."""
+    path = folder / f"{scene}_{name.lower()}.yaml"
+    if path.is_file():
+        return path
+    known = sorted(p.stem.removeprefix(f"{scene}_") for p in folder.glob(f"{scene}_*.yaml"))
+    raise MapError(f"no map {name!r} of the scene {scene}{nearest(name.lower(), known)}")
 
 
 def survey(scene: str, name: str) -> tuple[tuple[float, float, float], tuple[tuple[float, float, float], ...]]:

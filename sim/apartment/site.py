@@ -3,7 +3,6 @@
 World frame: ENU, metres, z up, floor at z = 0; yaw in radians, counter-clockwise from east.
 """
 
-import difflib
 import math
 from collections.abc import Iterator
 from pathlib import Path
@@ -14,9 +13,8 @@ from msgspec import Meta
 from ruamel.yaml import YAML
 from ruamel.yaml.error import YAMLError
 
-from crew.sim.map import Area, MapError, Origin, Spot
+from crew.sim.map import MAPS, Area, MapError, Origin, Spot, map_file
 
-MAPS = Path(__file__).parents[1] / "maps"
 SCENE = "apartment"
 WALL_M = 0.1
 """Thickness of every wall."""
@@ -96,12 +94,7 @@ class Site(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True
 
 def load_site(name: str, folder: Path = MAPS) -> Site:
     """Read one map. Raises MapError; an unknown name lists the maps that exist."""
-    path = folder / f"{SCENE}_{name.lower()}.yaml"
-    if not path.is_file():
-        known = sorted(p.stem.removeprefix(f"{SCENE}_") for p in folder.glob(f"{SCENE}_*.yaml"))
-        near = difflib.get_close_matches(name.lower(), known, n=1)
-        hint = f"; did you mean {near[0]}?" if near else ""
-        raise MapError(f"no map {name!r} of the scene {SCENE}; there are: {', '.join(known)}{hint}")
+    path = map_file(SCENE, name, folder)
     return parse_site(path.read_text(encoding="utf-8"), source=path.name)
 
 

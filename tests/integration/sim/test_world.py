@@ -115,7 +115,7 @@ def test_request_message_sends_it_once() -> None:
         ({"links": {"iris": "udp:127.0.0.1:9"}}, "links: has"),
         ({"links": {"iris": "x", "tb3": "udp:127.0.0.1:9"}}, "is not udp:HOST:PORT"),
         ({"faults": ("gps_los",)}, "nearest: gps_loss"),
-        ({"map": "Q"}, "no map air_ground_q"),
+        ({"map": "Q"}, "no map 'Q' of the scene air_ground"),
     ],
 )
 def test_a_wrong_configuration_is_refused(change: dict[str, Any], message: str) -> None:

@@ -35,7 +35,9 @@ def test_a_wrong_map_is_refused_with_its_field(old: str, new: str, message: str)
 
 
 def test_an_unknown_map_lists_those_that_exist() -> None:
-    with pytest.raises(MapError, match="no map 'neer' of the scene apartment; there are: far, near; did you mean near"):
+    with pytest.raises(
+        MapError, match=r"no map 'neer' of the scene apartment; did you mean 'near'\? \(valid: far, near"
+    ):
         load_site("neer")
 
 
