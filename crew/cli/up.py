@@ -4,20 +4,24 @@ import asyncio
 import time
 from contextlib import AbstractContextManager, AsyncExitStack
 
+from crew.bus.port import Sample
 from crew.cli.checklist import check_hardware
 from crew.cli.follow import event_box
 from crew.cli.output import coloured, say, say_event
+from crew.cli.presence import Change, Presence
 from crew.cli.progress import proof_progress
 from crew.cli.session import home, run
 from crew.cli.status import stop_line
+from crew.clock import WALL
 from crew.errors import UsageError
 from crew.launch.live import UNSECURED, LiveCrew, live_crew
 from crew.launch.options import LaunchOptions
 from crew.launch.site import resolve
-from crew.mailbox import Events, Letter, letters
+from crew.mailbox import Events, KeepLatest, Letter, letters, raw
 from crew.messages import RobotEvent
 from crew.verify import REPORT
 
+LOOK_EVERY_S = 0.1
 LOSS = {
     "orchestrator": "robots do what their skills declare for a lost orchestrator; missions are over",
     "router": "the bus is lost; robots do what their skills declare",
@@ -47,6 +51,7 @@ async def _up(options: LaunchOptions, view: bool) -> int:
                 group.create_task(_show_missions(crew))
                 group.create_task(_show_robots(crew))
                 group.create_task(losses.watch(crew))
+                group.create_task(losses.watch_frozen(crew))
     except asyncio.CancelledError:
         say("\nthe crew is down")
         if run_folder is not None:
@@ -71,22 +76,53 @@ def live_page(port: int) -> AbstractContextManager[str]:
 
 
 class Losses:
-    """Processes that ended without being asked."""
+    """Processes that ended without being asked, and those that are there and not heard."""
 
     def __init__(self) -> None:
         self.count = 0
+        self._presence = Presence(())
 
     async def watch(self, crew: LiveCrew) -> None:
         """Say who died and what that means, until cancelled."""
         while True:
             ended = await crew.exits.get()
             self.count += 1
+            self._presence.died(ended.name)
             how = f"signal {-ended.code}" if ended.code < 0 else f"code {ended.code}"
-            meaning = LOSS.get(ended.name, "the robot is unavailable")
-            say(coloured(f"{ended.name} died ({how}): {meaning}", "red"))
+            say(coloured(f"{ended.name} died ({how}): {_meaning(ended.name)}", "red"))
             if ended.said:
                 say(f"  it said: {ended.said.splitlines()[-1]}")
             say("  end the crew with Ctrl-C and bring it up again")
+
+    async def watch_frozen(self, crew: LiveCrew) -> None:
+        """Say who is frozen and what that means, and who is heard again, until cancelled."""
+        keys, presence = crew.keys, Presence(crew.pids)
+        self._presence = presence
+        beats: KeepLatest[Sample] = KeepLatest(raw)
+        crew.bus.subscribe(keys.heartbeat(), beats)
+        crew.bus.watch_liveliness(
+            keys.all_alive, lambda key, alive: presence.token(keys.name_in(key), alive, WALL.now_ns())
+        )
+        while True:
+            now_ns = WALL.now_ns()
+            if beats.take():
+                presence.beat(now_ns)
+            presence.bus(crew.bus.connected, now_ns)
+            for change in presence.look(now_ns):
+                _say_change(change, crew.pids[change.name])
+            await WALL.sleep(LOOK_EVERY_S)
+
+
+def _say_change(change: Change, pid: int) -> None:
+    if change.frozen:
+        what = f"process {pid} is there, and nothing was heard of it for {change.for_s:.1f} s"
+        say(coloured(f"{change.name} is frozen ({what}): {_meaning(change.name)}", "red"))
+    else:
+        say(coloured(f"{change.name} answers again, after {change.for_s:.1f} s", "amber"))
+
+
+def _meaning(name: str) -> str:
+    return LOSS.get(name, "the robot is unavailable")
 
 
 async def _show_missions(crew: LiveCrew) -> None:
