@@ -8,6 +8,7 @@ import msgspec
 
 from crew.contracts.decision import Authorizer
 from crew.contracts.gate.authorize import Gate
+from crew.contracts.mission.event import Answered
 from crew.contracts.mission.judgement import judge
 from crew.contracts.mission.listed import accept_listed, step_listed
 from crew.contracts.mission.machine import step
@@ -20,6 +21,7 @@ from crew.errors import JournalError, UsageError
 from crew.home import Home
 from crew.journal_reader import Record as Row
 from crew.journal_reader import check_chain, read_records
+from crew.messages import ANSWER, Answer
 from crew.packed import unpack
 from crew.records import (
     PASS_THROUGH,
@@ -33,7 +35,7 @@ from crew.records import (
     RunRecord,
     ValidationRecord,
 )
-from crew.signing import load_public_key
+from crew.signing import load_public_key, verify
 
 JOURNAL = "journal.db"
 REPORT = "report.html"
@@ -74,26 +76,39 @@ def verify_run(
     problems = list(chain.problems)
     if key_file is None and not outside.is_file():
         problems.append(f"no head of run {folder.name} outside its folder ({outside}): a cut tail could not be noticed")
-    replay = Replay(listener)
+    operator = (key_file.parent if key_file else home.keys) / "operator.pub"
+    replay = Replay(listener, load_public_key(operator) if operator.is_file() else b"")
     try:
         for row in read_records(path):
             replay.take(row)
     except JournalError as error:
         problems.append(str(error))
+    notes = [*chain.notes, *_approvals_note(replay)]
     return VerifyReport(
         run=folder.name,
         records=chain.records,
         replayed=dict(replay.counts),
         problems=(*problems, *replay.problems),
-        notes=tuple(chain.notes),
+        notes=tuple(notes),
         head=chain.head,
     )
 
 
-class Replay:
-    """Decides a journal's decisions again, from nothing but its records and the installed code."""
+def _approvals_note(replay: "Replay") -> list[str]:
+    count = replay.approvals
+    return [f"the operator's signature holds on {count} answer{'s' if count > 1 else ''} to approvals"] if count else []
 
-    def __init__(self, listener: Listener | None = None) -> None:
+
+class Replay:
+    """Decides a journal's decisions again, from nothing but its records and the installed code.
+
+    With `operator_key` (empty if there is none) it also checks who signed the answers to approvals.
+    """
+
+    def __init__(self, listener: Listener | None = None, operator_key: bytes | None = None) -> None:
+        self.approvals = 0
+        """Answers to approvals that the operator's signature holds on."""
+        self._operator_key = operator_key
         self.counts: Counter[str] = Counter()
         self.problems: list[str] = []
         self.rules: Rules | None = None
@@ -151,6 +166,8 @@ class Replay:
     def _replay(self, row: Row, record: Record, rules: Rules) -> None:
         match record:
             case MissionRecord():
+                if record.state.approvals:
+                    self._problem(row, f"mission {record.state.id} begins with an approval that nobody gave")
                 self.states[record.state.id] = record.state
             case EventRecord():
                 self._event(row, record, rules)
@@ -182,6 +199,8 @@ class Replay:
         if state is None:
             self._problem(row, f"an event of mission {record.mission}, which never began")
             return
+        if isinstance(record.event, Answered) and self._operator_key is not None:
+            self._answer(row, record.event, state, rules, self._operator_key)
         machine = step if self._authorizer.enforces else step_listed
         state, _ = machine(state, record.event, rules.contracts)
         self.states[record.mission] = state
@@ -189,6 +208,22 @@ class Replay:
             self._problem(
                 row, f"mission {record.mission} comes out in another state after {type(record.event).__name__}"
             )
+
+    def _answer(self, row: Row, event: Answered, state: MissionState, rules: Rules, key: bytes) -> None:
+        """An answer to an approval is the operator's own, by the signature that came with it."""
+        question = state.question
+        if question is None or not question.step or event.token != question.token:
+            return
+        answer = Answer(token=event.token, yes=event.yes, by=event.by)
+        whose = f"the {'approval' if event.yes else 'refusal'} of step {question.step} of mission {state.id}"
+        if verify(key, ANSWER, answer.signed_part(rules.crew.name, state.id), event.signature):
+            self.approvals += 1
+        elif not event.signature:
+            self._problem(row, f"{whose} carries no signature")
+        elif not key:
+            self._problem(row, f"{whose} can't be checked: no operator.pub beside orchestrator.pub")
+        else:
+            self._problem(row, f"{whose} is not signed by the operator")
 
     def _decision(self, row: Row, record: DecisionRecord, rules: Rules) -> None:
         decision = record.decision

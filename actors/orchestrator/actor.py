@@ -40,6 +40,8 @@ from crew.signing import SigningKey, verify
 from crew.wire import Message
 
 MAX_OPEN = 16
+MAX_NAME = 80
+"""Characters of the name that an answer may be kept under."""
 EVENTS_CAPACITY = 4096
 
 
@@ -181,15 +183,21 @@ class Orchestrator:
 
     def _take_answer(self, mission: str, answer: Answer) -> None:
         """Only the operator's signature approves a step; a question about the plan takes any answer that comes here."""
-        state = self.shell.missions.get(mission)
+        state, signature = self.shell.missions.get(mission), b""
         if state is not None and state.question is not None and state.question.step:
-            part = answer.signed_part(self._keys.crew, mission)
-            if not verify(self._operator_key, ANSWER, part, answer.signature):
+            if not self._is_operators(answer, mission):
                 self._ledger.note("answer_refused", f"{mission}: an answer by {answer.by[:80]!r} without the signature")
                 self._announcer.refused_answer(state)
                 return
-        at_ns = self._clock.now_ns()
-        self.shell.feed(mission, ev.Answered(at_ns=at_ns, token=answer.token, yes=answer.yes, by=answer.by[:80]))
+            signature = answer.signature
+        at_ns, by = self._clock.now_ns(), answer.by[:MAX_NAME]
+        answered = ev.Answered(at_ns=at_ns, token=answer.token, yes=answer.yes, by=by, signature=signature)
+        self.shell.feed(mission, answered)
+
+    def _is_operators(self, answer: Answer, mission: str) -> bool:
+        """Whether the operator signed this answer to this mission, in a name that is kept whole."""
+        part = answer.signed_part(self._keys.crew, mission)
+        return len(answer.by) <= MAX_NAME and verify(self._operator_key, ANSWER, part, answer.signature)
 
     def _take_request(self, intake: Intake) -> None:
         if not is_chunk(intake.mission):

@@ -49,6 +49,8 @@ class Answered(Event, frozen=True, kw_only=True, tag="answered"):
     token: str
     yes: bool
     by: str = ""
+    signature: bytes = b""
+    """Of an approval: the operator's, over mission, token and answer. Kept for whoever verifies; it decides nothing."""
 
 
 class Leased(Event, frozen=True, kw_only=True, tag="leased"):

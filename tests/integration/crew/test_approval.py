@@ -173,6 +173,7 @@ def test_everything_verifies_with_its_approvals(desk: Desk, up: Up) -> None:
     assert up.end() == 0
     verified = desk.crew("verify", str(run))
     assert verified.returncode == 0, verified.stdout + verified.stderr
+    assert "the operator's signature holds on 6 answers to approvals" in verified.stdout
     demo = desk.demo("guarded.yaml", "--request", SHORT_DRIVE)
     assert (demo.code, demo.result["outcome"], demo.result["code"]) == (3, "rejected", "approval_missing")
     assert "needs your approval" in demo.result["question"]
