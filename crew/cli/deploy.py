@@ -21,6 +21,7 @@ ROLES = {
     Role.ORCHESTRATOR: "decides and dispatches",
     Role.PLANNER: "proposes",
     Role.GATEWAY: "takes requests",
+    Role.RECORDER: "draws what happens",
 }
 HARDENED = """\
 NoNewPrivileges=yes
@@ -50,6 +51,9 @@ SystemCallErrorNumber=EPERM
 UMask=0077
 """
 """What a role's process may do on the machine. It needs its state folder, the network, and nothing else."""
+CLOSING_S = 15
+"""How long the recorder may take to leave a whole file; everybody else ends within the usual limit."""
+ENDING_S = 5
 LOOPBACK_ONLY = "IPAddressDeny=any\nIPAddressAllow=localhost\n"
 """For those who speak with nobody but the router; a planner may have a model, and a robot has its vehicle."""
 
@@ -109,7 +113,7 @@ def nested(settings: Mapping[str, Any]) -> dict[str, Any]:
 _TARGET = """\
 [Unit]
 Description=A crew of robots
-Wants=crew-router.service crew-orchestrator.service crew-planner.service crew-gateway.service
+Wants=crew-router.service crew-orchestrator.service crew-planner.service crew-gateway.service crew-recorder.service
 
 [Install]
 WantedBy=multi-user.target
@@ -133,6 +137,7 @@ def _unit(crew: Crew, role: str, what: str) -> str:
         start=_start(crew, role),
         after="crew-router.service",
         needs="" if role == Role.PLANNER else LOOPBACK_ONLY,
+        ending_s=CLOSING_S if role == Role.RECORDER else ENDING_S,
     )
 
 
@@ -156,7 +161,7 @@ def _user(role: str) -> str:
     return f"crew-{role}"
 
 
-def _service(description: str, *, user: str, start: str, after: str, needs: str) -> str:
+def _service(description: str, *, user: str, start: str, after: str, needs: str, ending_s: int = ENDING_S) -> str:
     return f"""\
 # Made by `crew deploy`; local changes belong in a drop-in (systemctl edit).
 [Unit]
@@ -173,7 +178,7 @@ Environment=CREW_HOME=%S/{user}
 Environment=PYTHONDONTWRITEBYTECODE=1
 ExecStart={start}
 KillSignal=SIGTERM
-TimeoutStopSec=5
+TimeoutStopSec={ending_s}
 Restart=on-failure
 RestartSec=1
 {needs}{HARDENED}

@@ -429,7 +429,7 @@ def certs_rotate(crew: CrewName = "air_ground", host: Hosts = None) -> None:
 
 @app.command("run")
 def run_one(
-    role: Annotated[str, typer.Argument(help="router, orchestrator, planner, gateway or robot-NAME.")],
+    role: Annotated[str, typer.Argument(help="router, orchestrator, planner, gateway, recorder or robot-NAME.")],
     crew: CrewName = "air_ground",
     router: Annotated[str, typer.Option(help="Where the router listens.")] = "tls/127.0.0.1:7448",
     guests: Annotated[str, typer.Option(help="Where the router takes guests in.")] = "tcp/127.0.0.1:7447",

@@ -4,6 +4,7 @@ import asyncio
 import importlib
 import os
 import time
+from importlib.util import find_spec
 
 from crew.access import ROBOT_PREFIX, Role
 from crew.authority import check
@@ -24,7 +25,9 @@ def child_of(role: str, options: LaunchOptions, home: Home, *, router: str, gues
     if rules.crew.sim is not None:
         raise UsageError(f"{rules.crew.source} is simulated: its processes share a clock; bring it up with crew up")
     name = rules.crew.name
-    decides = role == Role.ORCHESTRATOR
+    decides, records = role == Role.ORCHESTRATOR, role == Role.RECORDER
+    if records and find_spec("rerun") is None:
+        raise UsageError("the recorder needs the package that draws: pip install 'robot-crew[view]'")
     keys = home.keys
     operator, orchestrator = b"", b""
     if decides or role.startswith(ROBOT_PREFIX):
@@ -35,11 +38,12 @@ def child_of(role: str, options: LaunchOptions, home: Home, *, router: str, gues
         rules,
         options,
         running=running_at(name, home, router, guests),
-        run_folder=new_run_folder(options.runs, name) if decides else options.runs,
+        run_folder=new_run_folder(options.runs, name) if decides or records else options.runs,
         home=home.path.absolute(),
         epoch=home.next_epoch(name) if decides else 0,
         operator_key=operator,
         orchestrator_key=orchestrator,
+        view_port=0 if records else None,
     )
     by_role = {_role(child, [r.name for r in rules.crew.robots]): child for child in children}
     if role not in by_role:

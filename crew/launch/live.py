@@ -83,7 +83,7 @@ async def live_crew(
         endpoint = f"tls/127.0.0.1:{free_tcp_port()}"
         running = stack.enter_context(home.claim(rules.crew.name, run_folder, endpoint, guests))
         _write_resolved(rules, options, run_folder)
-        view_port = free_tcp_port() if _records(options) else 0
+        view_port = free_tcp_port() if _records(options) else None
         children = process_table(
             rules,
             options,
@@ -103,7 +103,7 @@ async def live_crew(
         await runner.start(children, ready_timeout_s=READY_S)
         bus = await stack.enter_async_context(ZenohBus(running.link(OPERATOR)))
         crew = LiveCrew(rules, running, bus, exits, runner.pids, unsecured=options.single_process)
-        crew.view_port = view_port
+        crew.view_port = view_port or 0
         names = [r.name for r in rules.crew.robots]
         crew.status = await await_ready(bus, crew.keys, names, timeout_s=READY_S, died=lambda: _first_exit(exits))
         yield crew

@@ -32,9 +32,9 @@ def process_table(
     epoch: int,
     operator_key: bytes,
     orchestrator_key: bytes,
-    view_port: int = 0,
+    view_port: int | None = None,
 ) -> list[Child]:
-    """Every process of the crew, with what it is started with."""
+    """Every process of the crew, with what it is started with. Without `view_port` (0: no page) nothing is recorded."""
     packed = pack(rules)
     ports = {robot.name: free_udp_port() for robot in rules.crew.robots}
     simulated = rules.crew.sim is not None
@@ -71,7 +71,7 @@ def process_table(
         run_folder=str(run_folder),
         planner=options.planning.name,
         simulated=simulated,
-        port=view_port,
+        port=view_port or 0,
     )
     return [
         Child(name="router", module="crew.router", spec=_router(rules, running), last=True),
@@ -84,7 +84,7 @@ def process_table(
             module="crew.actors.gateway.process",
             spec=GatewaySpec(crew=rules.crew.name, link=running.link("gateway")),
         ),
-        *([_recorder(recorder)] if view_port else []),
+        *([] if view_port is None else [_recorder(recorder)]),
     ]
 
 

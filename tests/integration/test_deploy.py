@@ -72,7 +72,7 @@ def test_the_units_are_hardened(tool: str, units: list[str]) -> None:
 
 def test_every_role_that_may_write_has_a_unit_and_a_user() -> None:
     users = (DEPLOY / "sysusers.d" / "crew.conf").read_text()
-    for role in (ROUTER, "orchestrator", "planner", "gateway"):
+    for role in (ROUTER, "orchestrator", "planner", "gateway", "recorder"):
         unit = (DEPLOY / "systemd" / f"crew-{role}.service").read_text()
         assert f"User=crew-{role}\n" in unit
         assert f"u crew-{role} " in users

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 
+from crew.actors.recorder.rrd import FILE, is_whole
 from crew.launch.alone import running_at
 from crew.launch.table import free_tcp_port, free_udp_port
 from crew.library import CREWS
@@ -18,7 +19,7 @@ from crew.sim.scenes import open_world, survey
 from tests.integration.crew.harness import NAME, SHORT_DRIVE, Desk, Up, Watch, watching
 
 SLICE_NS = 50_000_000
-ROLES = ("router", "orchestrator", "planner", "gateway", "robot-iris", "robot-tb3")
+ROLES = ("router", "orchestrator", "planner", "gateway", "robot-iris", "robot-tb3", "recorder")
 
 
 @contextmanager
@@ -112,6 +113,8 @@ async def test_each_role_runs_by_itself_with_only_its_own_keys(desk: Desk, ports
             await _available(watch, 30.0)
             ended = await watch.mission(SHORT_DRIVE)
             assert ended.outcome == "completed", ended.text
+    (recording,) = (own["recorder"].folder / "runs").glob(f"*/{FILE}")
+    assert is_whole(recording)
 
 
 async def _available(watch: Watch, seconds: float) -> None:
