@@ -56,9 +56,12 @@ class Row(msgspec.Struct, frozen=True):
 ORC, PLA, GAT, ROB = Role.ORCHESTRATOR, Role.PLANNER, Role.GATEWAY, Role.ROBOT
 SIM, REC, OPE, GUE = Role.SIMULATION, Role.RECORDER, Role.OPERATOR, Role.GUEST
 
+ACTUATION = Row("{robot}/@act/**", Way.PUT, (ORC,), (ROB,))
+HEARTBEAT = Row("orchestrator/heartbeat", Way.PUT, (ORC,), (ROB, OPE, REC))
+
 TABLE = (
     # actuation, stop, reset
-    Row("{robot}/@act/**", Way.PUT, (ORC,), (ROB,)),
+    ACTUATION,
     Row("@stop", Way.PUT, (OPE, GUE, ORC), (ROB, ORC, OPE, REC)),
     Row("@reset", Way.PUT, (OPE,), (ROB, ORC, REC)),
     # a person's side
@@ -73,7 +76,7 @@ TABLE = (
     Row("gateway/intake", Way.PUT, (GAT,), (ORC, REC)),
     Row("planner/ask", Way.PUT, (ORC,), (PLA, REC)),
     Row("planner/proposal", Way.PUT, (PLA,), (ORC, REC)),
-    Row("orchestrator/heartbeat", Way.PUT, (ORC,), (ROB, OPE, REC)),
+    HEARTBEAT,
     Row("orchestrator/alive", Way.ALIVE, (ORC,), (ROB, ORC, OPE, REC)),
     Row("{own}/alive", Way.ALIVE, (PLA, GAT, ROB, SIM, REC), (ORC, OPE, REC)),
     # robots
@@ -89,6 +92,20 @@ TABLE = (
     Row("sim/scene", Way.ASK, (OPE, REC), (SIM,)),
     Row("sim/camera/*", Way.PUT, (SIM,), (OPE, REC)),
 )
+
+
+def came_with(row: Row, peer: str) -> tuple[str, str]:
+    """The certificate that a message on this row's key was sent with, and how that is known, as a sentence.
+
+    `peer` is the certificate at the other end of the reader's own link. The name is empty where it shows none.
+    """
+    if peer != ROUTER:
+        return "", f"with whose certificate is not known: this link shows {peer or 'none'}"
+    who = " or ".join(row.writers)
+    return (
+        who,
+        f"sent with the certificate of {who}, for the crew's router (certificate {peer}) lets nobody else put here",
+    )
 
 
 class Identity(msgspec.Struct, frozen=True):

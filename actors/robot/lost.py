@@ -3,13 +3,14 @@
 from collections import Counter
 from typing import TYPE_CHECKING
 
+from crew.access import HEARTBEAT
 from crew.actors.robot.stop import StopSwitch
 from crew.bus.port import Bus
 from crew.clock import WALL, seconds_ns
 from crew.keys import Keys
 from crew.mailbox import KeepLatest, Letter, letters
 from crew.messages import Heartbeat
-from crew.permit import permit_problem
+from crew.permit import PermitProblem, permit_problem
 from crew.wire import Refusal
 
 if TYPE_CHECKING:
@@ -31,6 +32,7 @@ class OrchestratorWatch:
         self._gone = False
         self._heard_ns = 0
         self._newest = (-1, -1)
+        self._refused = ""
         self._bus_lost_ns = 0
         self.problem = UNHEARD
         """Why no command can be taken now; empty once a heartbeat was heard, until the orchestrator is lost."""
@@ -55,7 +57,7 @@ class OrchestratorWatch:
                 lost = self._lost()
                 if lost and self._heard_ns:
                     await self._act(lost)
-                await WALL.sleep(LOOK_EVERY_S)
+                await WALL.race(self._beats.changed(), LOOK_EVERY_S)
         finally:
             for declaration in self._declared:
                 declaration.close()
@@ -66,13 +68,20 @@ class OrchestratorWatch:
     def _hear(self) -> None:
         for letter in self._beats.take():
             beat = letter.message
-            if permit_problem(beat, self._crew, self._key) is not None:
-                self._actor.admission.refused_permits += 1
+            if (problem := permit_problem(beat, self._crew, self._key)) is not None:
+                self._refuse(problem)
             elif (beat.epoch, beat.count) > self._newest:
-                self._newest = (beat.epoch, beat.count)
+                self._newest, self._refused = (beat.epoch, beat.count), ""
                 self._heard_ns, self.problem = letter.received_ns, ""
                 self._actor.admission.hear_epoch(beat.epoch)
                 self._stop.hear(beat)
+
+    def _refuse(self, problem: PermitProblem) -> None:
+        """Counted each time; told once until a rightful one was heard, for they may come by the hundred."""
+        self._actor.admission.refused_permits += 1
+        if self._refused != problem.code:
+            self._refused = problem.code
+            self._actor.report.permit_refused(HEARTBEAT, problem.code, f"heartbeat: {problem.detail}")
 
     def _look_at_bus(self) -> None:
         """Tell, once it is back, that the bus was away: while it is, nobody hears anything."""

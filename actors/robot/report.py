@@ -3,6 +3,7 @@
 from collections import Counter
 from typing import TYPE_CHECKING
 
+from crew.access import Row, came_with
 from crew.adapter import Adapter, TellsProgress
 from crew.bus.port import Bus, Qos
 from crew.clock import Clock
@@ -70,6 +71,8 @@ class Reporter:
                 still=self.still and not actor.making_safe,
                 running=actor.running,
                 epoch=actor.admission.epoch,
+                latch=actor.latch,
+                told=actor.told,
                 dropped=actor.dropped,
                 refused_permits=actor.admission.refused_permits,
                 fluents={name: reading.value for name, reading in readings.items()},
@@ -97,6 +100,11 @@ class Reporter:
         """Something that happened to the robot itself."""
         self._put(what, "", 0, code, detail)
 
+    def permit_refused(self, row: Row, code: str, detail: str) -> None:
+        """Something that came without the orchestrator's permit, and whose certificate it was sent with."""
+        certificate, known = came_with(row, self._bus.peer)
+        self._put("permit_refused", "", 0, code, f"{detail}; {known}", certificate)
+
     def of(self, dispatch: Dispatch, what: str, code: str = "", detail: str = "") -> None:
         """Something that happened to a dispatch."""
         self._put(what, dispatch.mission, dispatch.sequence, code, detail)
@@ -119,7 +127,7 @@ class Reporter:
         known = KnownRobot(name=self._actor.name, fluents=fluents)
         return Snapshot(robots={self._actor.name: known}, values=values)
 
-    def _put(self, what: str, mission: str, sequence: int, code: str, detail: str) -> None:
+    def _put(self, what: str, mission: str, sequence: int, code: str, detail: str, certificate: str = "") -> None:
         self._events.put(
             RobotEvent(
                 robot=self._actor.name,
@@ -130,5 +138,6 @@ class Reporter:
                 sequence=sequence,
                 code=code,
                 detail=detail[:2000],
+                certificate=certificate,
             )
         )

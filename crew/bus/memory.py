@@ -49,6 +49,10 @@ class MemoryBus:
     def connected(self) -> bool:
         return self._link.connected
 
+    @property
+    def peer(self) -> str:
+        return ""
+
     def put(self, key: str, body: Body, *, qos: Qos) -> None:
         payload, encoding = packed(body)
         self._fabric.send(self._link, Sample(self._one_key(key), payload, encoding, time.monotonic_ns()))

@@ -91,6 +91,14 @@ class Bus(Protocol):
         """Whether a router is linked now. Tells a lost bus from others that are lost on it."""
         ...
 
+    @property
+    def peer(self) -> str:
+        """Common name of the certificate that the other end of this link showed; empty where none was shown.
+
+        All that is known of where a sample came from: its sender's own certificate ends at the router.
+        """
+        ...
+
     def put(self, key: str, body: Body, *, qos: Qos) -> None:
         """Send once; from any thread."""
         ...

@@ -68,6 +68,10 @@ class ZenohBus:
     def connected(self) -> bool:
         return bool(self._session.info.routers_zid())
 
+    @property
+    def peer(self) -> str:
+        return next((link.auth_identifier or "" for link in self._session.info.links()), "")
+
     def put(self, key: str, body: Body, *, qos: Qos) -> None:
         self._rights.to_write(Way.PUT, key)
         payload, encoding = packed(body)

@@ -9,6 +9,7 @@ import pytest
 from msgspec.structs import replace
 
 from crew.actors.robot import lost
+from crew.bus.memory import MemoryBus
 from crew.bus.port import Qos
 from crew.contracts.plan import ArgValue, digest
 from crew.contracts.snapshot import Point
@@ -131,6 +132,39 @@ async def test_a_forgery_is_refused_by_its_code_and_the_rightful_dispatch_runs(s
     await stage.until(lambda: stage.states[-1].refused_permits == 1, "its state counts it")
     stage.send(sound)
     await stage.heard("accepted")
+
+
+@pytest.mark.parametrize(
+    ("peer", "certificate", "words"),
+    [
+        ("router", "orchestrator", "sent with the certificate of orchestrator"),
+        ("planner", "", "this link shows planner"),
+        ("", "", "this link shows none"),
+    ],
+)
+async def test_a_refused_permit_names_the_certificate_as_far_as_it_is_known(
+    stage: RobotStage, monkeypatch: pytest.MonkeyPatch, peer: str, certificate: str, words: str
+) -> None:
+    monkeypatch.setattr(MemoryBus, "peer", peer)
+    stage.send(replace(stage.dispatch(), permit=b""))
+    event = await stage.heard("permit_refused")
+    assert event.certificate == certificate
+    assert words in event.detail
+
+
+async def test_forged_heartbeats_are_told_once_and_counted_each_time(
+    stage: RobotStage, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(MemoryBus, "peer", "router")
+    stage.freeze()
+    for count in (1, 2, 3):
+        stage.bus.put(stage.keys.heartbeat(), replace(stage.heartbeat(1), permit=b""), qos=Qos.EVENT)
+        await stage.until(lambda count=count: stage.actor.admission.refused_permits == count, "counted")  # type: ignore[misc]
+    event = await stage.heard("permit_refused")
+    assert (event.code, event.certificate) == ("no_permit", "orchestrator")
+    assert event.detail.startswith("heartbeat: ")
+    await stage.settle()
+    assert stage.whats.count("permit_refused") == 1
 
 
 async def test_a_forged_answer_to_a_running_dispatch_does_not_end_it(stage: RobotStage) -> None:
