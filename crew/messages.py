@@ -53,6 +53,10 @@ class RobotState(Message, frozen=True, kw_only=True):
     """`<mission>/<sequence>` of the dispatch that it carries out."""
     epoch: int = 0
     """The newest orchestrator's epoch that it has heard."""
+    latch: str = ""
+    """Names the newest stop that it has heard in this boot: a reset releases this one, and no later one."""
+    told: tuple[int, int] = (-1, -1)
+    """Epoch and number of the newest stop that a heartbeat has told it of."""
     dropped: int = 0
     """Messages to it that it dropped: unreadable, too late, or too many at once."""
     refused_permits: int = 0
@@ -80,6 +84,8 @@ class RobotEvent(Message, frozen=True, kw_only=True):
     sequence: int = 0
     code: str = ""
     detail: str = ""
+    certificate: str = ""
+    """Of a refused permit: with whose certificate it was sent, by the router's rules; empty if that is not known."""
 
 
 class RobotValue(Message, frozen=True, kw_only=True):
@@ -151,19 +157,21 @@ class Stop(Message, frozen=True, kw_only=True):
 
 
 class Reset(Message, frozen=True, kw_only=True):
-    """Release the latch of the named robots: signed by the operator, bound to epoch, targets and a nonce."""
+    """Release the named latches: signed by the operator, bound to epoch, robots, the stops they heard, and a nonce."""
 
     schema: ClassVar[str] = "crew.reset"
-    version: ClassVar[int] = 1
+    version: ClassVar[int] = 2
     by: str
     epoch: int
-    targets: tuple[str, ...]
+    targets: Mapping[str, str]
+    """Robot to the latch that is released, as its state showed it: a stop that came later stays."""
     nonce: str
     signature: bytes
 
     def signed_part(self, crew: str) -> bytes:
-        """What the signature covers."""
-        return "\n".join((crew, self.by, str(self.epoch), ",".join(self.targets), self.nonce)).encode()
+        """What the signature covers, canonical: a robot's own words in it can't be read as another robot's."""
+        whole = (crew, self.by, self.epoch, dict(self.targets), self.nonce)
+        return msgspec.msgpack.encode(whole, order="deterministic")
 
 
 # --- orchestrator, planner, gateway
@@ -322,6 +330,8 @@ class RobotStatus(Message, frozen=True, kw_only=True):
     unavailable: str
     stopped: bool
     still: bool
+    latch: str = ""
+    """The newest stop that it has heard, for a reset."""
     age_s: float | None
     running: str
     lease: str

@@ -25,10 +25,13 @@ class KeptStop(msgspec.Struct, frozen=True, kw_only=True):
 
 
 class StopHold:
-    """Which robots a stop holds. A robot leaves it once it was seen latched since the stop, and then released."""
+    """Which robots a stop holds. A robot confirms it by telling its number, and leaves it when it is unlatched then.
 
-    def __init__(self, robots: Iterable[str], path: Path | None = None) -> None:
-        self._robots, self._path = tuple(robots), path
+    What a robot says before it was told of this stop, in this epoch, is about an earlier one.
+    """
+
+    def __init__(self, robots: Iterable[str], path: Path | None = None, *, epoch: int = 0) -> None:
+        self._robots, self._path, self._epoch = tuple(robots), path, epoch
         self._kept = _read(path, self._robots)
         self._unconfirmed = set(self._kept.held)
         self._latched_ns: dict[str, int] = {}
@@ -58,19 +61,17 @@ class StopHold:
         )
 
     def hear_state(self, state: RobotState) -> None:
-        """A robot's own word: latched confirms, unlatched after that releases."""
+        """A robot's own word. Who was told of the stop has latched for it; unlatched, it was released from it."""
         if state.stopped:
-            self._unconfirmed.discard(state.robot)
             self._latched_ns.setdefault(state.robot, WALL.now_ns())
+        else:
+            self._latched_ns.pop(state.robot, None)
+        if state.robot not in self.held or state.told < (self._epoch, self.number):
             return
-        self._latched_ns.pop(state.robot, None)
-        if state.robot in self.held and state.robot not in self._unconfirmed:
+        self._unconfirmed.discard(state.robot)
+        if not state.stopped:
             held = tuple(name for name in self.held if name != state.robot)
             self._keep(msgspec.structs.replace(self._kept, held=held))
-
-    def confirm(self, robot: str) -> None:
-        """A robot's event says that it was latched since."""
-        self._unconfirmed.discard(robot)
 
     def rebooted(self, robot: str) -> None:
         """A robot that starts anew has to confirm anew."""

@@ -74,7 +74,7 @@ async def serve(spec: OrchestratorSpec, rules: Rules, bus: Bus, context: ChildCo
             run=run,
             key=key,
             operator_key=spec.operator_key,
-            hold=StopHold((r.name for r in rules.crew.robots), home.stop(rules.crew.name)),
+            hold=StopHold((r.name for r in rules.crew.robots), home.stop(rules.crew.name), epoch=spec.epoch),
         )
         async with asyncio.TaskGroup() as group:
             group.create_task(_end_on(failed, journal))

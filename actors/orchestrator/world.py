@@ -78,8 +78,6 @@ class WorldFold:
         card = self.cards.get(event.robot)
         if card is None or card.boot_id != event.boot_id:
             return
-        if event.what in ("stopped", "released"):
-            self.hold.confirm(event.robot)
         if event.what in ("succeeded", "failed", "cancelled", "refused"):
             self._ended[event.robot] = f"{event.mission}/{event.sequence}"
 
@@ -167,6 +165,7 @@ class WorldFold:
                     unavailable=known.unavailable,
                     stopped=known.stopped,
                     still=state is not None and state.still,
+                    latch="" if state is None else state.latch,
                     age_s=None if received is None else (WALL.now_ns() - received[1]) / 1e9,
                     running=known.running,
                     lease=known.lease,

@@ -5,6 +5,7 @@ import secrets
 
 import msgspec
 
+from crew.access import ACTUATION
 from crew.actors.robot.admission import Admission, Refused
 from crew.actors.robot.lost import OrchestratorWatch
 from crew.actors.robot.report import Reporter
@@ -91,6 +92,16 @@ class RobotActor:
     def making_safe(self) -> bool:
         """A declared behaviour, of a stop or of a lost orchestrator, is under way: the robot may move yet."""
         return self._stop.acting or self._watch.acting
+
+    @property
+    def latch(self) -> str:
+        """Names the newest stop that this boot has heard."""
+        return self._stop.latch
+
+    @property
+    def told(self) -> tuple[int, int]:
+        """Epoch and number of the newest stop that a heartbeat has told of."""
+        return self._stop.told
 
     @property
     def unavailable(self) -> str:
@@ -199,7 +210,7 @@ class RobotActor:
 
     def _say_permit_refused(self, command: Dispatch | CancelSkill, what: str, refused: Refused) -> None:
         detail = f"{what} {command.sequence} of {command.mission} in epoch {command.epoch}: {refused.detail}"
-        self.report.event("permit_refused", code=refused.code, detail=detail)
+        self.report.permit_refused(ACTUATION, refused.code, detail)
 
     def _cancel(self, cancel: CancelSkill) -> None:
         refused = self.admission.admit_cancel(cancel)

@@ -4,6 +4,7 @@ The orchestrator's heartbeat holds the stop up: it latches a robot that missed t
 """
 
 import asyncio
+import threading
 from collections import Counter
 from typing import TYPE_CHECKING
 
@@ -28,11 +29,19 @@ class StopSwitch:
         self._loop = asyncio.get_running_loop()
         self._stopped = asyncio.Event()
         self._nonces: set[str] = set()
-        self._told = (-1, -1)
+        self._order = threading.Lock()
+        self._count = 0
+        self.told = (-1, -1)
+        """Epoch and number of the newest stop that a heartbeat has told of."""
         self._resets: Events[Letter[Reset]] = Events(letters(Reset), capacity=16, on_lost=lambda _: None)
         self._declared = [bus.on_sample(keys.stop, self._on_stop), bus.subscribe(keys.reset, self._resets)]
         self.acting = False
         """The declared behaviour of a stop is under way."""
+
+    @property
+    def latch(self) -> str:
+        """Names the newest stop that this boot has heard: what a reset must have seen to release it."""
+        return f"{self._actor.boot_id}/{self._count}"
 
     @property
     def refusals(self) -> Counter[Refusal]:
@@ -56,12 +65,14 @@ class StopSwitch:
         The number tells a stop that this robot missed from one that it was released from since.
         """
         newest = (beat.epoch, beat.stop)
-        if newest <= self._told:
+        if newest <= self.told:
             return
-        self._told = newest
-        if self._actor.name in beat.stopped and not self._adapter.latched:
-            self._adapter.halt()
-            self._stopped.set()
+        if self._actor.name in beat.stopped:
+            if not self._adapter.latched:
+                self._stopped.set()
+            self._halt()
+        self.told = newest
+        self._actor.report.state()
 
     def again(self) -> None:
         """The vehicle has only now been found: what was latched before is carried out on it."""
@@ -71,9 +82,15 @@ class StopSwitch:
 
     def _on_stop(self, sample: Sample) -> None:
         """In the bus's thread: latch and halt first, tell the loop afterwards."""
-        self._adapter.halt()
+        self._halt()
         if not self._loop.is_closed():
             self._loop.call_soon_threadsafe(self._stopped.set)
+
+    def _halt(self) -> None:
+        """One more stop: nothing that was signed before it releases it."""
+        with self._order:
+            self._adapter.halt()
+            self._count += 1
 
     async def _behave(self) -> None:
         while True:
@@ -89,12 +106,14 @@ class StopSwitch:
             self._actor.report.state()
 
     def _judge(self, reset: Reset) -> None:
-        problem = self._problem(reset)
+        with self._order:
+            problem = self._problem(reset)
+            if not problem:
+                self._nonces.add(reset.nonce)
+                self._adapter.release()
         if problem:
             self._actor.report.event("reset_refused", code="reset_refused", detail=problem)
             return
-        self._nonces.add(reset.nonce)
-        self._adapter.release()
         self._actor.report.event("released", detail=f"by {reset.by}")
         self._actor.report.state()
 
@@ -107,6 +126,8 @@ class StopSwitch:
             return f"for epoch {reset.epoch}, the crew's epoch is {self._actor.admission.epoch}"
         if reset.nonce in self._nonces:
             return "this reset was used before"
+        if reset.targets[self._actor.name] != self.latch:
+            return "it was signed before the newest stop; see who stopped and why (crew status), then reset again"
         if self.acting:
             return "the robot is still carrying out its stop; wait until it stands still"
         return ""

@@ -1,7 +1,5 @@
 """`crew stop` and `crew reset`: one stops at once and says who stands still; the other releases, signed."""
 
-import secrets
-
 from crew.bus.port import Bus, Qos
 from crew.cli.output import coloured, say, say_json
 from crew.cli.session import home, operator, run
@@ -11,7 +9,8 @@ from crew.keys import Keys
 from crew.launch.live import OPERATOR
 from crew.launch.ready import query_status
 from crew.mailbox import Events, KeepLatest, Letter, letters
-from crew.messages import RESET, Reset, RobotEvent, RobotState, Stop
+from crew.messages import RobotEvent, RobotState, Stop
+from crew.release import signed_reset
 from crew.signing import load_or_create_key
 
 STILL_S = 30.0
@@ -83,15 +82,16 @@ async def _reset(robots: tuple[str, ...], crew: str) -> int:
         for name in robots:
             if name not in names:
                 raise UsageError(f"no robot is called {name!r}{nearest(name, names)}")
-        targets = robots or tuple(r.robot for r in status.robots if r.stopped)
+        targets = {r.robot: r.latch for r in status.robots if (r.robot in robots if robots else r.stopped)}
         if not targets:
             say("no robot is stopped")
             return 0
+        if status.stop is not None:
+            reason = f": {status.stop.reason}" if status.stop.reason else ""
+            say(f"stop {status.stop.number} by {status.stop.by}{reason}")
         events: Events[Letter[RobotEvent]] = Events(letters(RobotEvent), capacity=256, on_lost=lambda _: None)
         bus.subscribe(keys.robot_events, events)
-        unsigned = Reset(by=OPERATOR, epoch=status.epoch, targets=targets, nonce=secrets.token_hex(16), signature=b"")
-        signature = key.sign(RESET, unsigned.signed_part(running.crew))
-        signed = Reset(by=OPERATOR, epoch=status.epoch, targets=targets, nonce=unsigned.nonce, signature=signature)
+        signed = signed_reset(running.crew, targets, key, by=OPERATOR, epoch=status.epoch)
         bus.put(keys.reset, signed, qos=Qos.STOP)
         return await _await_release(events, set(targets))
 

@@ -74,7 +74,7 @@ def forged(key: str, mark: str) -> tuple[bytes, str]:
         "clock": ClockTick(slice=1, now_ns=2**62, datagrams={mark: 0}),
         "orchestrator/heartbeat": Heartbeat(name=mark, epoch=2**40, count=1),
         "sim/fault": SimFault(name=mark),
-        "@reset": Reset(by="operator", epoch=1, targets=("tb3",), nonce=mark, signature=b"\0" * 64),
+        "@reset": Reset(by="operator", epoch=1, targets={"tb3": mark}, nonce=mark, signature=b"\0" * 64),
     }
     return encode(made[key])
 

@@ -2,13 +2,10 @@
 
 import asyncio
 import os
-import secrets
 import socket
 import tempfile
 import time
 from pathlib import Path
-
-from msgspec.structs import replace
 
 from crew.access import ROBOT_PREFIX, ROUTER, Role
 from crew.authority import establish
@@ -17,9 +14,10 @@ from crew.bus.port import Qos
 from crew.bus.zenoh import ZenohBus
 from crew.keys import Keys
 from crew.launch.table import free_tcp_port
-from crew.mailbox import Events, Letter, letters
-from crew.messages import RESET, Heartbeat, Reset, RobotEvent, Stop
+from crew.mailbox import Events, KeepLatest, Letter, letters
+from crew.messages import Heartbeat, RobotEvent, RobotState, Stop
 from crew.permit import permit
+from crew.release import signed_reset
 from crew.router import RouterSpec
 from crew.signing import SigningKey
 from crew.supervisor import Child, Supervisor
@@ -71,6 +69,8 @@ async def _measure(rounds: int) -> list[float]:
 async def _stops(operator: ZenohBus, vehicle: socket.socket, rounds: int) -> list[float]:
     events: Events[Letter[RobotEvent]] = Events(letters(RobotEvent), capacity=8192, on_lost=lambda _: None)
     operator.subscribe(KEYS.robot_events, events)
+    states: KeepLatest[Letter[RobotState]] = KeepLatest(letters(RobotState))
+    operator.subscribe(KEYS.robot_states, states)
     await asyncio.sleep(1.0)
     found = []
     for _ in range(rounds):
@@ -78,7 +78,7 @@ async def _stops(operator: ZenohBus, vehicle: socket.socket, rounds: int) -> lis
         operator.put(KEYS.stop, Stop(by="bench"), qos=Qos.STOP)
         written_ns = await asyncio.to_thread(_arrival, vehicle)
         found.append((written_ns - began_ns) / 1e6)
-        await _release(operator, events)
+        await _release(operator, events, states)
     return found
 
 
@@ -88,12 +88,15 @@ def _arrival(vehicle: socket.socket) -> int:
     return time.monotonic_ns()
 
 
-async def _release(operator: ZenohBus, events: Events[Letter[RobotEvent]]) -> None:
+async def _release(
+    operator: ZenohBus, events: Events[Letter[RobotEvent]], states: KeepLatest[Letter[RobotState]]
+) -> None:
     """Reset, again while the robot still carries out its stop."""
+    latch = ""
     for _ in range(50):
-        unsigned = Reset(by="bench", epoch=1, targets=(ROBOT,), nonce=secrets.token_hex(8), signature=b"")
-        signature = OPERATOR_KEY.sign(RESET, unsigned.signed_part(KEYS.crew))
-        operator.put(KEYS.reset, replace(unsigned, signature=signature), qos=Qos.STOP)
+        latch = next((letter.message.latch for letter in states.take()), latch)
+        reset = signed_reset(KEYS.crew, {ROBOT: latch}, OPERATOR_KEY, by="bench", epoch=1)
+        operator.put(KEYS.reset, reset, qos=Qos.STOP)
         deadline = time.monotonic() + 2.0
         while time.monotonic() < deadline:
             whats = {letter.message.what for letter in events.take()}

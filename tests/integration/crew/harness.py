@@ -360,6 +360,11 @@ def intents(run: Path) -> list[str]:
     return [f"{d.robot}.{d.skill}" for d in found]
 
 
+def latches(status: CrewStatus) -> dict[str, str]:
+    """What a reset of every robot has to name."""
+    return {robot.robot: robot.latch for robot in status.robots}
+
+
 def spawn_of(robot: str) -> tuple[float, float]:
     """Where map A puts a robot."""
     spawns: Mapping[str, tuple[float, float]] = {"iris": (-4.0, -4.0), "tb3": (-4.0, -2.5)}

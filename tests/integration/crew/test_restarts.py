@@ -1,16 +1,16 @@
 """A stop outlives everything: the robot, the orchestrator, the whole crew. Only the signed reset ends it."""
 
-import secrets
 from collections.abc import AsyncIterator, Iterator
 
 import pytest
 
 from crew.bus.port import Qos
 from crew.launch.live import OPERATOR
-from crew.messages import RESET, Reset, Stop
+from crew.messages import Stop
 from crew.records import NoteRecord
+from crew.release import signed_reset
 from crew.signing import load_or_create_key
-from tests.integration.crew.harness import NAME, SHORT_DRIVE, Desk, Watch, journal, watching
+from tests.integration.crew.harness import NAME, SHORT_DRIVE, Desk, Watch, journal, latches, watching
 from tests.integration.crew.threads import ThreadedCrew, crew_with_threads
 
 BOTH = ("iris", "tb3")
@@ -43,9 +43,8 @@ async def boot_after(watch: Watch, robot: str, boot: str) -> None:
 async def released(watch: Watch, desk: Desk) -> None:
     """The operator's signed reset releases both, and the crew works again."""
     status = await watch.status()
-    unsigned = Reset(by=OPERATOR, epoch=status.epoch, targets=BOTH, nonce=secrets.token_hex(8), signature=b"")
-    signature = load_or_create_key(desk.home.keys, OPERATOR).sign(RESET, unsigned.signed_part(NAME))
-    signed = Reset(by=OPERATOR, epoch=status.epoch, targets=BOTH, nonce=unsigned.nonce, signature=signature)
+    key = load_or_create_key(desk.home.keys, OPERATOR)
+    signed = signed_reset(NAME, latches(status), key, by=OPERATOR, epoch=status.epoch)
     watch.put(watch.keys.reset, signed, qos=Qos.STOP)
     await watch.until(lambda: not any(watch.states[r].stopped for r in BOTH), why="released")
     await watch.drives()

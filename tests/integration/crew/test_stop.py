@@ -1,21 +1,33 @@
 """One message stops and latches every robot; only the operator's signature releases them."""
 
 import math
-import secrets
 from collections.abc import AsyncIterator, Iterator
 from typing import Any
 
 import pytest
+from msgspec.structs import replace
 
 from crew.bus.port import Body, Qos
 from crew.clock import seconds_ns
 from crew.contracts.plan import ArgValue, digest
 from crew.launch.live import OPERATOR, ORCHESTRATOR
 from crew.library import load_rules
-from crew.messages import RESET, Dispatch, Reset, RobotEvent, Stop
+from crew.messages import Dispatch, Reset, RobotEvent, Stop
 from crew.permit import permit
+from crew.release import signed_reset
 from crew.signing import load_or_create_key
-from tests.integration.crew.harness import FAR_DRIVE, SEARCH, SHORT_DRIVE, Desk, Up, Watch, intents, watching
+from tests.integration.crew.harness import (
+    FAR_DRIVE,
+    NAME,
+    SEARCH,
+    SHORT_DRIVE,
+    Desk,
+    Up,
+    Watch,
+    intents,
+    latches,
+    watching,
+)
 
 BOTH = ("iris", "tb3")
 GARBAGE: dict[str, Body] = {
@@ -55,16 +67,11 @@ async def stopped(watch: Watch, body: Body) -> None:
 
 async def reset(watch: Watch, desk: Desk, **changes: Any) -> Reset:
     """Publish a reset; signed by the operator as it stands unless the test brings a signature."""
-    epoch = (await watch.status()).epoch
-    sound: dict[str, Any] = {"by": OPERATOR, "epoch": epoch, "targets": BOTH, "nonce": secrets.token_hex(8)}
-    signature = changes.pop("signature", None)
-    unsigned = Reset(**{**sound, **changes}, signature=b"")
-    if signature is None:
-        part = unsigned.signed_part(watch.keys.crew)
-        signature = load_or_create_key(desk.home.keys, OPERATOR).sign(RESET, part)
-    signed = Reset(
-        by=unsigned.by, epoch=unsigned.epoch, targets=unsigned.targets, nonce=unsigned.nonce, signature=signature
-    )
+    status, key = await watch.status(), load_or_create_key(desk.home.keys, OPERATOR)
+    seen = latches(status)
+    targets = {robot: seen[robot] for robot in changes.get("robots", BOTH)}
+    signed = signed_reset(NAME, targets, key, by=OPERATOR, epoch=changes.get("epoch", status.epoch))
+    signed = replace(signed, signature=changes.get("signature", signed.signature))
     watch.put(watch.keys.reset, signed, qos=Qos.STOP)
     return signed
 
@@ -90,8 +97,9 @@ def refusals(watch: Watch) -> list[RobotEvent]:
 
 @pytest.mark.parametrize("name", GARBAGE)
 async def test_one_message_stops_everything_in_mid_mission(watch: Watch, desk: Desk, up: Up, name: str) -> None:
+    before = len(intents(up.run))
     search, drive = watch.ask(SEARCH), watch.ask(FAR_DRIVE)
-    await watch.airborne()
+    await watch.until(lambda: "iris.search_target" in intents(up.run)[before:], 60.0, "it searches, after its takeoff")
     await watch.moving("iris", mps=0.8)
     await watch.moving("tb3")
     sent = len(intents(up.run))
@@ -137,6 +145,8 @@ async def test_while_latched_nothing_is_accepted_by_anybody(watch: Watch, desk: 
     )
     watch.put(watch.keys.act("tb3", "navigate_to"), forged, qos=Qos.ACTUATION)
     await watch.until(lambda: any(e.what == "permit_refused" for e in watch.robot_events), why="it says so")
+    told = next(e for e in watch.robot_events if e.what == "permit_refused")
+    assert (told.code, told.certificate) == ("no_permit", "orchestrator"), "the one that the router lets through"
     rightful = permit(forged, watch.keys.crew, load_or_create_key(desk.home.keys, ORCHESTRATOR))
     watch.put(watch.keys.act("tb3", "navigate_to"), rightful, qos=Qos.ACTUATION)
     await watch.until(lambda: any(e.mission == "m-forged" for e in watch.robot_events), why="an answer")
@@ -155,7 +165,7 @@ async def test_only_a_fresh_signed_reset_of_this_epoch_releases(watch: Watch, de
         "signed by another": ({"signature": b"\x07" * 64}, "signature"),
         "of an older epoch": ({"epoch": epoch - 1}, "epoch"),
         "of a later epoch": ({"epoch": epoch + 1}, "epoch"),
-        "without targets": ({"targets": ()}, "not among the targets"),
+        "without targets": ({"robots": ()}, "not among the targets"),
     }
     for name, (changes, why) in wrong.items():
         count = len(refusals(watch))
@@ -167,7 +177,7 @@ async def test_only_a_fresh_signed_reset_of_this_epoch_releases(watch: Watch, de
     await watch.until(lambda: len(refusals(watch)) == count + 2, why="replayed")
     assert all("used before" in e.detail for e in refusals(watch)[-2:])
     watch.put(watch.keys.reset, (b"\x00", "text/plain"), qos=Qos.STOP)
-    await reset(watch, desk, targets=("tb3",))
+    await reset(watch, desk, robots=("tb3",))
     await watch.until(lambda: not watch.states["tb3"].stopped, why="the rover is released")
     assert watch.states["iris"].stopped, "it was not among the targets"
     assert (await watch.status()).stopped

@@ -8,6 +8,8 @@ from dataclasses import dataclass, field
 from functools import cache
 from typing import Any
 
+from msgspec.structs import replace
+
 from crew.actors.robot import lost
 from crew.actors.robot.actor import RobotActor
 from crew.adapter import Adapter, Place, Reading, StopLatch
@@ -264,19 +266,17 @@ class RobotStage:
     def stop(self) -> None:
         self.bus.put(self.keys.stop, Stop(by="operator"), qos=Qos.STOP)
 
+    def signed_reset(self, **changes: Any) -> Reset:
+        """A reset of what the robot has heard, not sent yet."""
+        sound: dict[str, Any] = {"by": "operator", "epoch": 1, "nonce": secrets.token_hex(4)}
+        signature = changes.pop("signature", None)
+        unsigned = Reset(**{**sound, "targets": {"tb3": self.actor.latch}, **changes}, signature=b"")
+        part = unsigned.signed_part(self.keys.crew)
+        return replace(unsigned, signature=self.operator.sign(RESET, part) if signature is None else signature)
+
     def reset(self, **changes: Any) -> Reset:
         """Publish a reset that is signed as it stands, unless the test brings a signature of its own."""
-        sound: dict[str, Any] = {"by": "operator", "epoch": 1, "targets": ("tb3",), "nonce": secrets.token_hex(4)}
-        signature = changes.pop("signature", None)
-        unsigned = Reset(**{**sound, **changes}, signature=b"")
-        part = unsigned.signed_part(self.keys.crew)
-        signed = Reset(
-            by=unsigned.by,
-            epoch=unsigned.epoch,
-            targets=unsigned.targets,
-            nonce=unsigned.nonce,
-            signature=self.operator.sign(RESET, part) if signature is None else signature,
-        )
+        signed = self.signed_reset(**changes)
         self.bus.put(self.keys.reset, signed, qos=Qos.STOP)
         return signed
 

@@ -1,6 +1,7 @@
 """Stop and loss in each phase of a skill: the robot does what was declared, says so once, and serves on after."""
 
 import asyncio
+import threading
 from collections.abc import AsyncIterator
 from typing import Any
 
@@ -166,8 +167,8 @@ async def test_a_signed_reset_releases_and_work_goes_on(stage: RobotStage) -> No
     [
         ({"signature": b""}, "signature"),
         ({"signature": b"\x01" * 64}, "signature"),
-        ({"targets": ("iris",)}, "not among the targets"),
-        ({"targets": ()}, "not among the targets"),
+        ({"targets": {"iris": "b/1"}}, "not among the targets"),
+        ({"targets": {}}, "not among the targets"),
         ({"epoch": 2}, "epoch"),
         ({"epoch": 0}, "epoch"),
     ],
@@ -195,6 +196,96 @@ async def test_a_reset_counts_once(stage: RobotStage) -> None:
     assert stage.adapter.latched
 
 
+async def test_a_reset_that_was_signed_before_a_stop_does_not_release_it(stage: RobotStage) -> None:
+    stage.stop()
+    await stopped(stage)
+    early = stage.signed_reset()
+    stage.stop()
+    stage.bus.put(stage.keys.reset, early, qos=Qos.STOP)
+    assert "before the newest stop" in (await stage.heard("reset_refused")).detail
+    assert stage.adapter.latched
+    await stage.settle()
+    stage.reset()
+    await stage.heard("released")
+
+
+async def test_a_reset_that_was_signed_before_the_first_stop_does_not_release_it(stage: RobotStage) -> None:
+    early = stage.signed_reset()
+    stage.stop()
+    await stopped(stage)
+    stage.bus.put(stage.keys.reset, early, qos=Qos.STOP)
+    await stage.heard("reset_refused")
+    assert stage.adapter.latched
+
+
+async def test_a_reset_does_not_release_a_stop_that_the_heartbeat_has_brought_since(stage: RobotStage) -> None:
+    """The robot is latched already, and the newer stop's own message was lost on the way to it."""
+    stage.stop()
+    await stopped(stage)
+    early = stage.signed_reset()
+    stage.fabric.drop_next(stage.keys.stop)
+    stage.stop()
+    stage.beat(stop=2, stopped=("tb3",))
+    await stage.until(lambda: stage.states[-1].told == (1, 2), "it was told")
+    stage.bus.put(stage.keys.reset, early, qos=Qos.STOP)
+    await stage.heard("reset_refused")
+    assert stage.adapter.latched
+
+
+async def test_a_stop_that_comes_after_the_reset_latches_again(stage: RobotStage) -> None:
+    stage.stop()
+    await stopped(stage)
+    stage.reset()
+    stage.stop()
+    await stage.heard("released", "reset_refused")
+    await stage.until(lambda: stage.whats.count("stopped") == 2, "the newer stop was heard")
+    assert stage.adapter.latched, "whichever of them came first"
+
+
+async def test_a_stop_that_comes_while_a_reset_is_carried_out_holds(
+    stage: RobotStage, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The stop arrives in the bus's thread after the reset was found good, and before the latch is opened."""
+    stage.stop()
+    await stopped(stage)
+    halted, halt, release = threading.Event(), stage.adapter.halt, stage.adapter.release
+
+    def heard() -> None:
+        halt()
+        halted.set()
+
+    def late() -> None:
+        stage.stop()
+        halted.wait(0.2)
+        release()
+
+    monkeypatch.setattr(stage.adapter, "halt", heard)
+    monkeypatch.setattr(stage.adapter, "release", late)
+    stage.reset()
+    await stage.heard("released")
+    await stage.until(halted.is_set, "the stop was heard")
+    assert stage.adapter.latched
+
+
+async def test_a_reset_of_an_earlier_boot_releases_nothing(stage: RobotStage) -> None:
+    stage.stop()
+    await stopped(stage)
+    count = stage.actor.latch.partition("/")[2]
+    stage.reset(targets={"tb3": f"{'0' * 16}/{count}"})
+    await stage.heard("reset_refused")
+    assert stage.adapter.latched
+
+
+async def test_a_robot_cannot_have_its_own_words_read_as_another_robots(stage: RobotStage) -> None:
+    """The operator signs what a rogue robot calls its latch; that signs nothing about this one."""
+    stage.stop()
+    await stopped(stage)
+    rogue = stage.signed_reset(targets={"iris": f"b/1,tb3={stage.actor.latch}"})
+    stage.reset(targets={"iris": "b/1", "tb3": stage.actor.latch}, nonce=rogue.nonce, signature=rogue.signature)
+    assert "signature" in (await stage.heard("reset_refused")).detail
+    assert stage.adapter.latched
+
+
 async def test_a_refused_reset_does_not_use_up_its_nonce(stage: RobotStage) -> None:
     stage.stop()
     await stopped(stage)
@@ -207,10 +298,10 @@ async def test_a_refused_reset_does_not_use_up_its_nonce(stage: RobotStage) -> N
 async def test_a_reset_altered_under_way_is_refused(stage: RobotStage) -> None:
     stage.stop()
     await stopped(stage)
-    genuine = stage.reset(targets=("iris",))
+    genuine = stage.reset(targets={"iris": stage.actor.latch})
     await stage.heard("reset_refused")
     count = stage.whats.count("reset_refused")
-    stage.reset(targets=("tb3",), nonce=genuine.nonce, signature=genuine.signature)
+    stage.reset(targets={"tb3": stage.actor.latch}, nonce=genuine.nonce, signature=genuine.signature)
     await stage.until(lambda: stage.whats.count("reset_refused") > count, "refused too")
     assert stage.adapter.latched
 

@@ -11,8 +11,10 @@ from crew.messages import RobotState
 BOTH = ("iris", "tb3")
 
 
-def said(hold: StopHold, robot: str, *, stopped: bool) -> None:
-    hold.hear_state(RobotState(robot=robot, boot_id="b", at_ns=1, stopped=stopped))
+def said(hold: StopHold, robot: str, *, stopped: bool, told: tuple[int, int] | None = None) -> None:
+    """A state of a robot that was told of the newest stop, unless the test says of which."""
+    told = (0, hold.number) if told is None else told
+    hold.hear_state(RobotState(robot=robot, boot_id="b", at_ns=1, stopped=stopped, told=told))
 
 
 def test_without_a_stop_nobody_is_held(tmp_path: Path) -> None:
@@ -24,7 +26,7 @@ def test_without_a_stop_nobody_is_held(tmp_path: Path) -> None:
 def test_a_robot_leaves_the_stop_once_it_was_seen_latched_and_then_released(tmp_path: Path) -> None:
     hold = StopHold(BOTH, tmp_path / "stop.json")
     hold.stop("operator")
-    said(hold, "tb3", stopped=False)
+    said(hold, "tb3", stopped=False, told=(0, 0))
     assert list(hold.held) == ["iris", "tb3"], "an older word of a robot that was not latched yet releases nothing"
     said(hold, "tb3", stopped=True)
     assert hold.unconfirmed == ["iris"]
@@ -51,9 +53,33 @@ def test_a_robot_that_starts_anew_confirms_anew(tmp_path: Path) -> None:
     for robot in BOTH:
         said(hold, robot, stopped=True)
     hold.rebooted("tb3")
-    said(hold, "tb3", stopped=False)
+    said(hold, "tb3", stopped=False, told=(-1, -1))
     assert hold.held == BOTH
     assert hold.unconfirmed == ["tb3"]
+
+
+def test_what_a_robot_says_of_an_earlier_stop_neither_confirms_nor_ends_a_newer_one(tmp_path: Path) -> None:
+    """Latched and released by the word of stop 1, which was on its way when stop 2 came."""
+    hold = StopHold(BOTH, tmp_path / "stop.json")
+    hold.stop("operator")
+    said(hold, "tb3", stopped=True)
+    hold.stop("guest")
+    said(hold, "tb3", stopped=True, told=(0, 1))
+    assert hold.unconfirmed == ["iris", "tb3"]
+    said(hold, "tb3", stopped=False, told=(0, 1))
+    assert list(hold.held) == ["iris", "tb3"]
+    said(hold, "tb3", stopped=True, told=(0, 2))
+    said(hold, "tb3", stopped=False, told=(0, 2))
+    assert list(hold.held) == ["iris"]
+
+
+def test_a_number_of_an_earlier_epoch_confirms_nothing(tmp_path: Path) -> None:
+    StopHold(BOTH, tmp_path / "stop.json", epoch=3).stop("operator")
+    hold = StopHold(BOTH, tmp_path / "stop.json", epoch=4)
+    said(hold, "tb3", stopped=False, told=(3, 1))
+    assert (hold.held, hold.unconfirmed) == (BOTH, ["iris", "tb3"])
+    said(hold, "tb3", stopped=False, told=(4, 1))
+    assert list(hold.held) == ["iris"]
 
 
 def test_the_account_names_who_has_not_confirmed_standing_still() -> None:

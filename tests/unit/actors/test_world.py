@@ -143,12 +143,12 @@ def test_a_stop_is_released_when_no_robot_that_is_heard_is_latched(world: WorldF
         world.take_state(state(robot), now_ns=1)
     world.stop("operator")
     assert not world.all_released(), "neither has said yet that it is latched"
-    world.take_state(state(at_ns=11, stopped=True), now_ns=1)
-    world.take_state(state("iris", at_ns=11, stopped=True), now_ns=1)
+    world.take_state(state(at_ns=11, stopped=True, told=(0, 1)), now_ns=1)
+    world.take_state(state("iris", at_ns=11, stopped=True, told=(0, 1)), now_ns=1)
     assert not world.all_released()
-    world.take_state(state(at_ns=12), now_ns=2)
+    world.take_state(state(at_ns=12, told=(0, 1)), now_ns=2)
     assert not world.all_released()
-    world.take_state(state("iris", at_ns=12), now_ns=2)
+    world.take_state(state("iris", at_ns=12, told=(0, 1)), now_ns=2)
     assert world.all_released()
 
 
@@ -158,8 +158,7 @@ def test_a_robot_that_does_not_confirm_a_stop_keeps_it_in_force(world: WorldFold
     for at_ns in (11, 12):
         world.take_state(state(at_ns=at_ns), now_ns=1)
     assert not world.all_released()
-    world.take_event(_event("released", 0))
-    world.take_state(state(at_ns=13), now_ns=1)
+    world.take_state(state(at_ns=13, told=(0, 1)), now_ns=1)
     assert world.all_released()
 
 
@@ -167,8 +166,8 @@ def test_a_robot_that_is_lost_does_not_keep_a_stop_in_force(world: WorldFold) ->
     for robot in ("tb3", "iris"):
         world.take_state(state(robot, stopped=True), now_ns=1)
     world.stop("operator")
-    world.take_state(state("iris", at_ns=11, stopped=True), now_ns=1)
-    world.take_state(state("iris", at_ns=12), now_ns=1)
+    world.take_state(state("iris", at_ns=11, stopped=True, told=(0, 1)), now_ns=1)
+    world.take_state(state("iris", at_ns=12, told=(0, 1)), now_ns=1)
     assert not world.all_released()
     world.take_liveliness("tb3", alive=False)
     assert world.all_released()
