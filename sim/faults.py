@@ -38,6 +38,13 @@ class Faults:
             raise ValueError(f"fault {text!r}: {seconds!r} is no mission time; write {name}@40 for 40 s")
         self._later.append((at_ns, name))
 
+    def switch(self, text: str, on: bool) -> None:
+        """Switch a fault by its text; one with a time is switched on then. Raises ValueError."""
+        if on and "@" in text:
+            self.schedule(text)
+        else:
+            self.set(text, on)
+
     def set(self, name: str, on: bool) -> None:
         """Switch a fault. Raises ValueError with the valid names and the nearest for an unknown one."""
         self._check(name)

@@ -67,7 +67,7 @@ class Licence(msgspec.Struct, frozen=True, kw_only=True):
 
 
 class Never(msgspec.Struct, frozen=True, kw_only=True):
-    """A dispatch that is false in a scenario whatever the plan; an empty skill means every one of the robot."""
+    """A dispatch that is false in a scenario whatever the plan; an empty skill means all but the ways to safety."""
 
     robot: str
     skill: str = ""
@@ -142,9 +142,10 @@ def _reasons(sent: Sent, case: Case, rules: Rules, frames: Sequence[Frame]) -> I
         return
     yield from _arguments(sent, skill, rules, frames)
     since_ns = case.unavailable.get(sent.robot)
-    if since_ns is not None and since_ns <= sent.at_ns:
+    if since_ns is not None and since_ns <= sent.at_ns and not skill.safe:
         yield "unavailable", f"{sent.robot} is not available from {since_ns / 1e9:g} s on"
-    if any(n.robot == sent.robot and n.skill in ("", sent.skill) for n in case.never):
+    banned = (sent.skill,) if skill.safe else ("", sent.skill)
+    if any(n.robot == sent.robot and n.skill in banned for n in case.never):
         yield "never", f"{sent.robot}.{sent.skill} must not be sent in this scenario"
     if case.licences and not any(_fits(licence, sent) for licence in case.licences):
         yield "not_asked", f"nobody asked for {sent.robot}.{sent.skill}({_written(sent.args)})"

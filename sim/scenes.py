@@ -1,7 +1,8 @@
 """The scenes that the simulation can host, by the name in a crew file. A scene is imported only once it is opened."""
 
 import importlib
-from collections.abc import Callable, Mapping
+from collections.abc import Iterable, Mapping
+from pathlib import Path
 from types import TracebackType
 from typing import TYPE_CHECKING, Any, Protocol, Self
 
@@ -9,6 +10,7 @@ import msgspec
 
 from crew.errors import nearest
 from crew.sim.config import WorldConfig
+from crew.sim.faults import unavailable
 from crew.sim.map import MapError
 from crew.sim.truth import SceneTruth
 
@@ -19,10 +21,15 @@ if TYPE_CHECKING:
     from crew.sim.appearance import Appearance
 
 SCENES = {
-    "air_ground": ("crew.sim.world:World", "crew.sim.map:survey"),
-    "apartment": ("crew.sim.apartment.world:Apartment", "crew.sim.apartment.site:survey"),
+    "air_ground": ("crew.sim.world:World", "crew.sim.map:survey", "crew.sim.faults:SHARED"),
+    "apartment": (
+        "crew.sim.apartment.world:Apartment",
+        "crew.sim.apartment.site:survey",
+        "crew.sim.apartment.mishap:NAMES",
+    ),
 }
-"""Each scene's world, and the surveyor of its maps."""
+"""Each scene's world, the surveyor of its maps, and the names of its faults beside those of its vehicles."""
+MAPS = Path(__file__).parent / "maps"
 
 
 class Survey(msgspec.Struct, frozen=True):
@@ -85,9 +92,18 @@ def survey(scene: str, map_name: str) -> Survey:
     return Survey(origin, obstacles)
 
 
-def _load(scene: str, part: int) -> Callable[..., Any]:
+def map_names(scene: str) -> tuple[str, ...]:
+    """The scene's maps as a crew file may name them, in small letters."""
+    return tuple(sorted(path.stem.removeprefix(f"{scene}_") for path in MAPS.glob(f"{scene}_*.yaml")))
+
+
+def fault_names(scene: str, vehicles: Iterable[str]) -> tuple[str, ...]:
+    """The faults that `--fault` takes for a scene with these vehicles. Raises MapError for an unknown scene."""
+    return (*_load(scene, 2), *(unavailable(vehicle) for vehicle in vehicles))
+
+
+def _load(scene: str, part: int) -> Any:
     if scene not in SCENES:
         raise MapError(f"no scene is called {scene!r}{nearest(scene, SCENES)}")
     module, _, name = SCENES[scene][part].partition(":")
-    found: Callable[..., Any] = getattr(importlib.import_module(module), name)
-    return found
+    return getattr(importlib.import_module(module), name)

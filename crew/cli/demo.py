@@ -7,7 +7,6 @@ import msgspec
 
 from crew.bus.port import Bus
 from crew.cli.follow import follow_request
-from crew.cli.goal import goal_error_m, true_places
 from crew.cli.output import coloured, say, say_event, say_json
 from crew.cli.progress import proof_progress
 from crew.cli.session import EXIT_CODES, home, run
@@ -18,6 +17,7 @@ from crew.launch.options import LaunchOptions
 from crew.library import demo_request, load_crew_file
 from crew.mailbox import KeepLatest, Letter, letters
 from crew.messages import MissionEvent, SimTruth
+from crew.study.arrival import goal_error_m, true_places
 from crew.verify import REPORT
 
 

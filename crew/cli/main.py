@@ -102,6 +102,50 @@ def demo(
     _end(run_demo(options, request, as_json))
 
 
+@app.command(name="eval")
+def evaluate(
+    words: Annotated[
+        list[str] | None,
+        typer.Argument(metavar="[ablate] [CREW]", help="A crew's name or file; ablate before it for held plans."),
+    ] = None,
+    arms: Annotated[str, typer.Option(help="all, or some of llm-only,skill-list,ro-prompt,ro.")] = "all",
+    planner: Planner = "embedded",
+    script: Script = "",
+    model: Model = "",
+    base_url: BaseUrl = "",
+    endpoint: EndpointFile = "",
+    seed: Annotated[int, typer.Option(help="First seed of the simulation's noise, and of the fallible planner.")] = 0,
+    seeds: Annotated[int, typer.Option(help="How many seeds, counted up from --seed.")] = 1,
+    out: Annotated[Path, typer.Option(help="Folder of the study; what it holds already is not run again.")] = Path(
+        "runs/study"
+    ),
+    scenarios: Annotated[
+        Path | None, typer.Option(help="Folder of scenario files; the shipped ones if left out.")
+    ] = None,
+    only: Annotated[list[str] | None, typer.Option(help="Only this scenario; may be given several times.")] = None,
+    jobs: Annotated[int, typer.Option(help="Missions side by side.")] = 2,
+    as_json: AsJson = False,
+) -> None:
+    """Carry out a study in simulation: scenarios in four arms, live, judged by the simulation's truth."""
+    from crew.cli.evaluate import EvalOptions, run_eval, what_of
+
+    held, crew = what_of(words or [])
+    options = EvalOptions(
+        crew=crew,
+        arms=arms,
+        planning=_planning(planner, script, model, base_url, endpoint, "contracts", True),
+        seed=seed,
+        seeds=seeds,
+        out=out,
+        scenarios=scenarios,
+        only=tuple(only or ()),
+        jobs=jobs,
+        held=held,
+        as_json=as_json,
+    )
+    _end(run_eval(options))
+
+
 @app.command()
 def request(
     text: Annotated[str, typer.Argument(help="What the crew shall do, in plain words.")],

@@ -1,11 +1,12 @@
 """Scenarios: what is asked of a crew in which world, and what must happen then. Data; runs nothing."""
 
-from collections.abc import Iterator
 from typing import Literal
 
 import msgspec
 
-from crew.sim.oracle import Case, Licence
+from crew.contracts.site import Crew
+from crew.sim.oracle import Case
+from crew.sim.oracle import Licence as Licence
 from crew.sim.oracle import Never as Never
 
 UNAVAILABLE = "_unavailable"
@@ -25,7 +26,7 @@ class Scenario(msgspec.Struct, frozen=True, kw_only=True):
     seed: int = 0
     """Added to the study's seed, so that scenarios of one study differ in noise."""
     faults: tuple[str, ...] = ()
-    """As `--fault` takes them: `name`, or `name@seconds` for one that begins at that mission time."""
+    """`name` for one that is there from the start, `name@seconds` for one that begins so long after the request."""
     kind: Literal["nominal", "fault"]
     outcome: Literal["completed", "blocked"]
     """`blocked`: refused before the false step is sent, whether anything rightful was sent before or not."""
@@ -45,14 +46,20 @@ class Scenario(msgspec.Struct, frozen=True, kw_only=True):
         """Whether there is a right plan for it, even if a fault stops it later."""
         return bool(self.contracts)
 
+    def case(self, crew: Crew, began_ns: int) -> Case:
+        """What the oracle has to know of a mission that was asked for at `began_ns`, mission time."""
+        robots = {f"{robot.sim}{UNAVAILABLE}": robot.name for robot in crew.robots}
+        later = {name: began_ns + round(after_s * 1e9) for name, after_s in self.faults_later.items()}
+        onsets = {**dict.fromkeys(self.faults_at_once, 0), **later}
+        unavailable = {robots[name]: at_ns for name, at_ns in onsets.items() if name in robots}
+        return Case(unavailable=unavailable, never=self.never, licences=self.licences)
+
     @property
-    def case(self) -> Case:
-        """What the oracle has to know."""
-        return Case(unavailable=dict(_unavailable(self.faults)), never=self.never, licences=self.licences)
+    def faults_at_once(self) -> tuple[str, ...]:
+        """Faults that are there when the world begins."""
+        return tuple(fault for fault in self.faults if "@" not in fault)
 
-
-def _unavailable(faults: tuple[str, ...]) -> Iterator[tuple[str, int]]:
-    for fault in faults:
-        name, _, seconds = fault.partition("@")
-        if name.endswith(UNAVAILABLE):
-            yield name.removesuffix(UNAVAILABLE), round(float(seconds or 0.0) * 1e9)
+    @property
+    def faults_later(self) -> dict[str, float]:
+        """Fault to the seconds of mission time after the request at which it begins."""
+        return {f.partition("@")[0]: float(f.partition("@")[2]) for f in self.faults if "@" in f}

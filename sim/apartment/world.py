@@ -116,7 +116,7 @@ class Apartment:
 
     def set_fault(self, name: str, on: bool) -> None:
         """Switch a fault while running. Raises ValueError with the valid names and the nearest for an unknown one."""
-        self._faults.set(name, on)
+        self._faults.switch(name, on)
 
     def close(self) -> None:
         """Close the sockets; may be called twice."""
