@@ -2,7 +2,6 @@
 
 import importlib
 from collections.abc import Iterable, Mapping
-from pathlib import Path
 from types import TracebackType
 from typing import TYPE_CHECKING, Any, Protocol, Self
 
@@ -11,7 +10,7 @@ import msgspec
 from crew.errors import nearest
 from crew.sim.config import WorldConfig
 from crew.sim.faults import unavailable
-from crew.sim.map import MapError
+from crew.sim.map import MAPS, MapError
 from crew.sim.truth import SceneTruth
 
 if TYPE_CHECKING:
@@ -29,7 +28,6 @@ SCENES = {
     ),
 }
 """Each scene's world, the surveyor of its maps, and the names of its faults beside those of its vehicles."""
-MAPS = Path(__file__).parent / "maps"
 
 
 class Survey(msgspec.Struct, frozen=True):

@@ -6,8 +6,8 @@ from pathlib import Path
 import pytest
 
 from crew.library import load_rules
-from crew.sim.apartment.site import MAPS, load_site, parse_site
-from crew.sim.map import MapError
+from crew.sim.apartment.site import load_site, parse_site
+from crew.sim.map import MAPS, MapError
 from crew.sim.scenes import survey
 
 TEXT = (MAPS / "apartment_far.yaml").read_text(encoding="utf-8")
