@@ -1,0 +1,1 @@
+"""The study: long checks that need no robots."""
