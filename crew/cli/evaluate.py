@@ -104,7 +104,7 @@ def parse_arms(text: str) -> tuple[Arm, ...]:
     names = [name.strip() for name in text.split(",") if name.strip()]
     for name in names:
         if name not in list(Arm):
-            raise UsageError(f"no arm is called {name!r}{nearest(name, list(Arm))}; or all")
+            raise UsageError(f"no arm is called {name!r}{nearest(name, [arm.value for arm in Arm])}; or all")
     if not names:
         raise UsageError(f"--arms is empty; give all, or some of {', '.join(Arm)}")
     return tuple(arm for arm in Arm if arm.value in names)

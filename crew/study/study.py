@@ -4,7 +4,8 @@ import shutil
 import subprocess
 import sys
 import threading
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Sequence
+from contextlib import suppress
 from pathlib import Path
 from queue import Empty, SimpleQueue
 
@@ -155,6 +156,7 @@ class _Worker(threading.Thread):
         self._waiting, self._finished = waiting, finished
         self._process: subprocess.Popen[bytes] | None = None
         self._handed = 0
+        self._over = False
 
     def run(self) -> None:
         try:
@@ -167,21 +169,32 @@ class _Worker(threading.Thread):
             self._finished.put(None)
 
     def end(self) -> None:
-        """End the process; it holds nothing that is not kept."""
+        """Hand out nothing more, and end the process: it holds nothing that is not kept."""
+        self._over = True
+        self._end_process()
+
+    def _end_process(self) -> None:
         process, self._process = self._process, None
-        if process is not None:
-            process.kill()
-            process.wait()
+        if process is None:
+            return
+        process.kill()
+        process.wait()
+        for stream in (process.stdin, process.stdout):
+            if stream is not None:
+                with suppress(OSError):
+                    stream.close()
 
     def _try(self, task: Task) -> Observation | CrewError:
         said = ""
         for _ in range(TRIES):
+            if self._over:
+                break
             shutil.rmtree(Path(task.out) / task.run, ignore_errors=True)
             answer = self._ask(task)
             if answer.observation is not None:
                 return answer.observation
             said = answer.error
-            self.end()
+            self._end_process()
         return CrewError(f"{task.run}: the mission could not be carried out: {said}; run the same command to go on")
 
     def _ask(self, task: Task) -> Answer:
@@ -194,7 +207,7 @@ class _Worker(threading.Thread):
             process.stdin.write(msgspec.json.encode(task) + b"\n")
             process.stdin.flush()
             line = process.stdout.readline()
-        except OSError as error:
+        except (OSError, ValueError) as error:
             return Answer(error=f"its process is gone: {error}")
         finally:
             guard.cancel()
@@ -204,7 +217,7 @@ class _Worker(threading.Thread):
 
     def _ready(self) -> "subprocess.Popen[bytes]":
         if self._process is None or self._handed >= RECYCLE:
-            self.end()
+            self._end_process()
             command = [sys.executable, "-m", "crew.study.worker"]
             self._process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE)
             self._handed = 0
@@ -220,10 +233,7 @@ def _check_same(what: str, found: str, wanted: str, path: Path) -> None:
         )
 
 
-def _empty(waiting: "SimpleQueue[Task]") -> Iterable[Task]:
-    taken = []
-    try:
+def _empty(waiting: "SimpleQueue[Task]") -> None:
+    with suppress(Empty):
         while True:
-            taken.append(waiting.get_nowait())
-    except Empty:
-        return taken
+            waiting.get_nowait()

@@ -17,6 +17,7 @@ from crew.study.live import fly
 from crew.study.observation import Observation
 from crew.study.observe import Mission, observe
 from crew.study.scenario import Scenario
+from crew.study.version import study_version
 
 STATE = "state"
 """In a study's folder: keys, certificates and journal heads of its crews, apart from those of crews that are used."""
@@ -46,7 +47,12 @@ class Answer(msgspec.Struct, frozen=True, kw_only=True):
 
 
 def carry_out(task: Task) -> Observation:
-    """Run one mission and leave its observation in its folder. Raises CrewError if the crew does not come up."""
+    """Run one mission and leave its observation in its folder.
+
+    Raises CrewError if the crew does not come up, or if this process has other code than the study began with.
+    """
+    if (here := study_version()) != task.version:
+        raise CrewError(f"the code has changed under the study: it began with {task.version}, now it is {here}")
     began = time.monotonic()
     out, folder = Path(task.out).absolute(), Path(task.out).absolute() / task.run
     folder.mkdir(parents=True)
