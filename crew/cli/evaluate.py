@@ -4,6 +4,7 @@ import os
 import sys
 import time
 from collections.abc import Callable, Sequence
+from importlib.util import find_spec
 from pathlib import Path
 
 import msgspec
@@ -20,12 +21,14 @@ from crew.proofs import ensure_proved
 from crew.study.ablate import arms_of, run_ablation
 from crew.study.launch import UNENFORCED, simulated_rules
 from crew.study.observation import Observation, Results
+from crew.study.publish import RESULTS
 from crew.study.scenario_file import SHIPPED, load_scenarios
-from crew.study.study import RESULTS, Wanted, run_study
+from crew.study.study import Wanted, run_study
 from crew.study.version import study_version
 
 MOST_JOBS = 64
-ABLATE = "ablate"
+ABLATE, FUZZ = "ablate", "fuzz"
+"""What may stand before a crew, and what may stand alone."""
 
 
 class EvalOptions(msgspec.Struct, frozen=True, kw_only=True):
@@ -44,13 +47,26 @@ class EvalOptions(msgspec.Struct, frozen=True, kw_only=True):
     as_json: bool = False
 
 
-def what_of(words: Sequence[str]) -> tuple[bool, str]:
-    """Whether plans are held, and the crew. Raises UsageError for more words than that."""
-    held = list(words[:1]) == [ABLATE]
-    rest = words[1:] if held else words
-    if len(rest) > 1:
-        raise UsageError(f"crew eval takes one crew, not {' '.join(rest)!r}; what may stand before it: {ABLATE}")
-    return held, rest[0] if rest else "air_ground"
+def what_of(words: Sequence[str]) -> tuple[str, str]:
+    """What is to be done (empty for a study) and the crew. Raises UsageError for more words than that."""
+    what = words[0] if words and words[0] in (ABLATE, FUZZ) else ""
+    rest = words[1:] if what else words
+    if len(rest) > 1 or (what == FUZZ and rest):
+        raise UsageError(
+            f"crew eval can't be told {' '.join(words)!r}; write crew eval CREW, crew eval {ABLATE} CREW, "
+            f"or crew eval {FUZZ}"
+        )
+    return what, rest[0] if rest else "air_ground"
+
+
+def run_fuzz(seed: int, plans: int, mutants: Sequence[str], jobs: int, out: Path) -> int:
+    """0 if the gate let nothing unsafe pass and every mutant that was asked for died; 1 otherwise."""
+    from crew.study.fuzz.command import fuzz, write
+
+    results = fuzz(seed, plans, mutants, jobs, lambda text: print(text, file=sys.stderr, flush=True))
+    for path in write(results, out):
+        say(f"written: {path}")
+    return 0 if results.sound else 1
 
 
 def run_eval(options: EvalOptions) -> int:
@@ -70,6 +86,8 @@ def run_eval(options: EvalOptions) -> int:
 
 
 def _wanted(options: EvalOptions) -> Wanted:
+    if find_spec("scipy") is None:
+        raise UsageError("a study's tables need scipy; install robot-crew[study]")
     check_choice(options.planning, os.environ)
     if options.seed < 0 or options.seeds < 1:
         raise UsageError(f"--seed {options.seed} --seeds {options.seeds}: seeds count from 0 up, at least one")
@@ -86,7 +104,9 @@ def _wanted(options: EvalOptions) -> Wanted:
     return Wanted(
         crew=options.crew,
         testbed=rules.crew.name,
-        scenarios=tuple(s for s in scenarios if not options.only or s.name in options.only),
+        rules=rules,
+        scenarios=scenarios,
+        only=options.only,
         arms=arms_of(arms) if options.held else arms,
         seeds=tuple(range(options.seed, options.seed + options.seeds)),
         planning=options.planning,

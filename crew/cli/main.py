@@ -106,7 +106,10 @@ def demo(
 def evaluate(
     words: Annotated[
         list[str] | None,
-        typer.Argument(metavar="[ablate] [CREW]", help="A crew's name or file; ablate before it for held plans."),
+        typer.Argument(
+            metavar="[CREW | ablate CREW | fuzz]",
+            help="A crew's name or file: a study; after ablate: its plans held over arms; fuzz: the gate alone.",
+        ),
     ] = None,
     arms: Annotated[str, typer.Option(help="all, or some of llm-only,skill-list,ro-prompt,ro.")] = "all",
     planner: Planner = "embedded",
@@ -123,13 +126,17 @@ def evaluate(
         Path | None, typer.Option(help="Folder of scenario files; the shipped ones if left out.")
     ] = None,
     only: Annotated[list[str] | None, typer.Option(help="Only this scenario; may be given several times.")] = None,
-    jobs: Annotated[int, typer.Option(help="Missions side by side.")] = 2,
+    jobs: Annotated[int, typer.Option(help="Missions, or processes of the fuzz, side by side.")] = 2,
+    plans: Annotated[int, typer.Option(help="How many plans the fuzz makes.")] = 100_000,
+    mutant: Annotated[list[str] | None, typer.Option(help="A mutant that the fuzz must kill, or all.")] = None,
     as_json: AsJson = False,
 ) -> None:
     """Carry out a study in simulation: scenarios in four arms, live, judged by the simulation's truth."""
-    from crew.cli.evaluate import EvalOptions, run_eval, what_of
+    from crew.cli.evaluate import ABLATE, FUZZ, EvalOptions, run_eval, run_fuzz, what_of
 
-    held, crew = what_of(words or [])
+    what, crew = what_of(words or [])
+    if what == FUZZ:
+        _end(run_fuzz(seed, plans, mutant or (), jobs, out))
     options = EvalOptions(
         crew=crew,
         arms=arms,
@@ -140,7 +147,7 @@ def evaluate(
         scenarios=scenarios,
         only=tuple(only or ()),
         jobs=jobs,
-        held=held,
+        held=what == ABLATE,
         as_json=as_json,
     )
     _end(run_eval(options))

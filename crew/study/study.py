@@ -13,14 +13,15 @@ import msgspec
 
 from crew.actors.specs import PlannerChoice
 from crew.contracts.render.prompt import Arm
+from crew.contracts.site import Rules
 from crew.errors import CrewError, UsageError
-from crew.home import replace_file
 from crew.study.live import LIMIT_S
 from crew.study.observation import Observation, Results
+from crew.study.publish import publish
 from crew.study.scenario import Scenario
 from crew.study.worker import SEEN, Answer, Task
 
-RUNS, RESULTS = "runs", "results.json"
+RUNS = "runs"
 TRIES = 2
 """How often a mission is begun whose crew does not come up."""
 PATIENCE_S = LIMIT_S + 60.0
@@ -36,7 +37,11 @@ class Wanted(msgspec.Struct, frozen=True, kw_only=True):
     crew: str
     """Name or path of the crew file."""
     testbed: str
+    rules: Rules
     scenarios: tuple[Scenario, ...]
+    """All that are known."""
+    only: tuple[str, ...] = ()
+    """Names of those that are carried out; empty means all."""
     arms: tuple[Arm, ...]
     seeds: tuple[int, ...]
     planning: PlannerChoice
@@ -63,12 +68,13 @@ def tasks(wanted: Wanted) -> list[Task]:
         )
         for seed in wanted.seeds
         for scenario in wanted.scenarios
+        if not wanted.only or scenario.name in wanted.only
         for arm in wanted.arms
     ]
 
 
 def run_study(wanted: Wanted, tell: Tell) -> Results:
-    """Carry out what the folder does not hold yet, and write `results.json` of all that it holds.
+    """Carry out what the folder does not hold yet, and publish all that it holds.
 
     Raises UsageError before anything is run if the folder holds missions of another version or planner, and
     CrewError if a crew does not come up; what was done until then is kept, and done the next time.
@@ -102,6 +108,7 @@ def kept(wanted: Wanted) -> list[Observation]:
             seen = msgspec.json.decode(path.read_bytes(), type=Observation)
         except msgspec.MsgspecError as error:
             raise UsageError(f"{path} is no mission of this version ({error}); choose an empty folder") from error
+        _check_same("crew", seen.testbed, wanted.testbed, path)
         _check_same("version", seen.version, wanted.version, path)
         _check_same("planner", seen.planner, wanted.planner, path)
         _check_same("model", seen.model, wanted.planning.model, path)
@@ -110,12 +117,10 @@ def kept(wanted: Wanted) -> list[Observation]:
 
 
 def write_results(wanted: Wanted) -> Results:
-    """All missions of the folder in one file, in an order that does not depend on when each was run."""
+    """All missions of the folder, in an order that does not depend on when each was run, and what they come to."""
     found = sorted(kept(wanted), key=lambda seen: seen.key)
     results = Results(version=wanted.version, observations=tuple(found))
-    replace_file(
-        wanted.out / RESULTS, msgspec.json.format(msgspec.json.encode(results), indent=1) + b"\n", durable=True
-    )
+    publish(results, wanted.scenarios, wanted.rules, wanted.out)
     return results
 
 

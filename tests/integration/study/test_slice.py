@@ -21,6 +21,7 @@ def _study(crew: str, scenario: str, out: Path) -> dict[Arm, Observation]:
     wanted = Wanted(
         crew=crew,
         testbed=crew,
+        rules=rules,
         scenarios=tuple(found),
         arms=(Arm.RO_PROMPT, Arm.RO),
         seeds=(0,),

@@ -12,10 +12,12 @@ from crew.cli.evaluate import parse_arms, what_of
 from crew.contracts.plan import Call, Plan
 from crew.contracts.render.prompt import Arm
 from crew.errors import CrewError, UsageError
+from crew.library import load_rules
 from crew.study import study
 from crew.study.ablate import run_ablation
-from crew.study.observation import Observation
-from crew.study.study import RESULTS, Wanted, run_study, tasks
+from crew.study.observation import Observation, Results
+from crew.study.publish import RESULTS
+from crew.study.study import Wanted, run_study, tasks
 from crew.study.worker import SEEN, Task
 from tests.unit.crew.study.build import FIND, LOST, TO_BASE, WHOLE
 
@@ -65,6 +67,7 @@ def wanted(tmp_path: Path) -> Wanted:
     return Wanted(
         crew="air_ground",
         testbed="air_ground",
+        rules=load_rules("air_ground"),
         scenarios=(FIND, LOST),
         arms=tuple(Arm),
         seeds=(0, 1),
@@ -73,6 +76,16 @@ def wanted(tmp_path: Path) -> Wanted:
         version="1",
         out=tmp_path / "out",
     )
+
+
+@pytest.fixture(autouse=True)
+def _plainly_published(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Tables take a bootstrap, and are not what is tested here."""
+
+    def publish(results: Results, scenarios: object, rules: object, out: Path) -> None:
+        (out / RESULTS).write_bytes(msgspec.json.encode(results))
+
+    monkeypatch.setattr(study, "publish", publish)
 
 
 def _nothing(seen: Observation, done: int, total: int) -> None:
@@ -133,12 +146,13 @@ def test_held_plans_are_the_sampled_ones(wanted: Wanted, monkeypatch: pytest.Mon
 
 
 def test_words_of_the_command() -> None:
-    assert what_of([]) == (False, "air_ground")
-    assert what_of(["ablate", "humanoid_quadruped"]) == (True, "humanoid_quadruped")
+    assert what_of([]) == ("", "air_ground")
+    assert what_of(["ablate", "humanoid_quadruped"]) == ("ablate", "humanoid_quadruped")
+    assert what_of(["fuzz"]) == ("fuzz", "air_ground")
     assert parse_arms("ro,llm-only") == (Arm.LLM_ONLY, Arm.RO)
     with pytest.raises(UsageError, match="did you mean 'ro-prompt'"):
         parse_arms("ro_prompt")
-    with pytest.raises(UsageError, match="takes one crew"):
+    with pytest.raises(UsageError, match="can.t be told .a b."):
         what_of(["a", "b"])
 
 
