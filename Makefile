@@ -4,7 +4,7 @@ BIN := .venv/bin
 CREW ?= air_ground
 ARGS ?=
 
-.PHONY: help demo test check bench hostile soak picture study sdk smoke clean
+.PHONY: help demo test check bench hostile soak picture study accuracy sdk smoke clean
 
 help:  ## this list
 	@grep -E '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):.*## */make \1\t/' | expand -t 14
@@ -33,7 +33,17 @@ soak: .venv/.ready  ## the long tests: those marked soak, and every property wit
 picture: .venv/.ready  ## make the README's picture anew: a run's page in a browser (needs Chromium)
 	$(BIN)/python -m tests.integration.recorder.picture docs/images/replay.png
 
-study: .venv/.ready  ## accuracy and faults of air_ground, deliveries of humanoid_quadruped, by seed, into docs/study
+STUDY ?= runs/eval
+PLANNER ?= fallible
+
+study: .venv/.ready  ## both testbeds in four arms, RO on five seeds (PLANNER=fallible STUDY=runs/eval); goes on where it was
+	@for crew in air_ground humanoid_quadruped; do \
+	  $(BIN)/crew eval $$crew --planner $(PLANNER) --out $(STUDY)/$$crew && \
+	  $(BIN)/crew eval $$crew --planner $(PLANNER) --arms ro --seeds 5 --out $(STUDY)/$$crew && \
+	  $(BIN)/crew eval ablate $$crew --planner $(PLANNER) --arms ro --out $(STUDY)/$$crew-held || exit $$?; \
+	done
+
+accuracy: .venv/.ready  ## accuracy and faults of air_ground, deliveries of humanoid_quadruped, by seed, into docs/study
 	$(BIN)/python -m crew.study.air_ground --out docs/study --runs runs/study
 	$(BIN)/python -m tests.study.humanoid_quadruped --out docs/study
 

@@ -224,7 +224,9 @@ class _Worker(threading.Thread):
         if self._process is None or self._handed >= RECYCLE:
             self._end_process()
             command = [sys.executable, "-m", "crew.study.worker"]
-            self._process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE)
+            self._process = subprocess.Popen(
+                command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, start_new_session=True
+            )
             self._handed = 0
         self._handed += 1
         return self._process
