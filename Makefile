@@ -4,12 +4,14 @@ BIN := .venv/bin
 CREW ?= air_ground
 ARGS ?=
 
+SOURCES := $(shell find actors adapters contracts crew sim -name '*.py')
+
 .PHONY: help demo test check bench hostile soak picture study accuracy sdk smoke clean
 
 help:  ## this list
 	@grep -E '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):.*## */make \1\t/' | expand -t 14
 
-demo: .venv/.ready  ## bring a crew up in simulation, carry out one request (CREW=air_ground ARGS="--seed 3")
+demo: .venv/.compiled  ## bring a crew up in simulation, carry out one request (CREW=air_ground ARGS="--seed 3")
 	@$(BIN)/crew demo $(CREW) $(ARGS)
 
 test: .venv/.ready  ## unit and integration tests (ARGS="tests/unit -x")
@@ -21,7 +23,7 @@ check: .venv/.ready  ## formatting, lint, types, import layers
 	$(BIN)/mypy
 	$(BIN)/lint-imports --no-logo
 
-bench: .venv/.ready  ## measure speed and latency
+bench: .venv/.compiled  ## measure speed and latency
 	$(BIN)/python -m tests.bench $(ARGS)
 
 hostile: .venv/.ready  ## the twenty hostile cases, against crews that are up (docs/hostile-cases.md)
@@ -60,3 +62,8 @@ clean:  ## remove .venv, caches and build output; recorded runs stay
 
 .venv/.ready: pyproject.toml .ci/venv
 	@.ci/venv
+
+# Python keeps bytecode by itself, unless it may not (PYTHONDONTWRITEBYTECODE): then every process would compile.
+.venv/.compiled: .venv/.ready $(SOURCES)
+	@$(BIN)/python -m compileall -q actors adapters contracts crew sim
+	@touch $@

@@ -125,9 +125,8 @@ def _stale(call: Call, field: str, observed: str, allowed: str) -> Refusal:
 def _preconditions(call: Call, scope: Scope) -> Iterator[Refusal]:
     for fluent, wanted in skill_of(call, scope.rules).needs.items():
         verdict = robot_fluent_is(call.robot, fluent, wanted, scope)
-        refusal = _judge(f"{call.robot}.{fluent}", f"is {show(wanted)}", verdict, "")
-        if refusal is not None:
-            yield refusal
+        if verdict.truth is not Truth.HOLDS:
+            yield _unmet(f"{call.robot}.{fluent}", f"is {show(wanted)}", verdict, "")
 
 
 def _guards(step: str, mission: MissionState, scope: Scope) -> Iterator[Refusal]:
@@ -137,19 +136,18 @@ def _guards(step: str, mission: MissionState, scope: Scope) -> Iterator[Refusal]
     assert declared is not None
     entry = () if mission.sent_any else contract.needs
     for condition in (*entry, *declared.needs):
-        line = f"{contract.name}:{condition.line}"
-        refusal = _judge(condition.path, _wanted(condition), evaluate(condition, scope), line, scope)
-        if refusal is not None:
-            yield refusal
+        verdict = evaluate(condition, scope)
+        if verdict.truth is not Truth.HOLDS:
+            line = f"{contract.name}:{condition.line}"
+            yield _unmet(condition.path, _wanted(condition), verdict, line, scope)
 
 
 def _wanted(condition: Condition) -> str:
     return f"is {'not ' if condition.negated else ''}{show(condition.value)}"
 
 
-def _judge(path: str, wanted: str, verdict: Verdict, line: str, scope: Scope | None = None) -> Refusal | None:
-    if verdict.truth is Truth.HOLDS:
-        return None
+def _unmet(path: str, wanted: str, verdict: Verdict, line: str, scope: Scope | None = None) -> Refusal:
+    """A condition that does not hold, as a refusal."""
     aged = "" if verdict.age_s is None else f" ({verdict.age_s:.1f} s old, at most {verdict.max_age_s:g} s)"
     if verdict.truth is Truth.FAILS:
         message = f"needs that {path} {wanted}, observed {verdict.observed}"

@@ -38,6 +38,8 @@ KEYS = Keys("air_ground")
 KEY = SigningKey(bytes(32))
 ORCHESTRATOR = str(Role.ORCHESTRATOR)
 WARM_UP = 50
+BEAT_EVERY_NS = 500_000_000
+"""Well within the time after which a robot takes its orchestrator for lost, on a machine that is busy as well."""
 
 
 def measure(rounds: int) -> tuple[list[float], list[float]]:
@@ -115,6 +117,7 @@ class Trips:
         self._publisher = bus.publisher(KEYS.act(ROBOT, "stop"), qos=Qos.ACTUATION)
         self._contract = load_rules("air_ground").contracts["dispatch_only"].digest
         self._number = self._beats = 0
+        self._beat_due_ns = 0
         self._boot = ""
 
     async def ready(self) -> bytes:
@@ -129,12 +132,13 @@ class Trips:
         """Show that the orchestrator lives."""
         self._bus.put(KEYS.heartbeat(), permit(_beat(self._beats), KEYS.crew, KEY), qos=Qos.EVENT)
         self._beats += 1
+        self._beat_due_ns = time.monotonic_ns() + BEAT_EVERY_NS
 
     async def trip(self) -> float:
         """Microseconds from the put to the accepted event."""
         self._number += 1
         dispatch = _dispatch(self._number, self._boot, self._contract)
-        if self._number % 100 == 0:
+        if time.monotonic_ns() >= self._beat_due_ns:
             self.beat()
             await asyncio.sleep(0.01)  # on its way before the clock starts
         began_ns = time.perf_counter_ns()

@@ -2,7 +2,8 @@
 
 import pytest
 
-from crew.actors.planner.retrieval import CONTRACTS, Library, closure
+from crew.actors.planner.retrieval import CONTRACTS, Library
+from crew.contracts.contract import Contract
 from crew.contracts.site import Rules
 from crew.library import load_rules
 from tests.unit.actors.large_library import OTHER_WORDS, SAME_WORDS, large_library, small_part
@@ -42,9 +43,21 @@ def test_what_is_shown_holds_every_skill_of_its_contracts_and_little_else(librar
     assert len(shown.contracts) <= CONTRACTS
     held = {(kind.name, skill.name) for kind in shown.kinds.values() for skill in kind.skills}
     for contract in shown.contracts.values():
-        assert closure(contract, rules) <= held
+        assert _called(contract, rules) <= held
     assert len(held) <= CONTRACTS * 5
     assert {r.kind for r in shown.crew.robots} == {kind for kind, _ in held}
+
+
+def _called(contract: Contract, rules: Rules) -> set[tuple[str, str]]:
+    """Kind and skill of everything that a contract's steps and safe states call, for every kind that has it."""
+    names = {pattern.skill for step in contract.steps for pattern in step.do}
+    names |= {role.safe.by for role in contract.roles if role.safe is not None}
+    return {(kind.name, name) for kind in rules.kinds.values() for name in names if kind.skill(name) is not None}
+
+
+def test_a_word_that_every_contract_holds_tells_none_of_them_apart(library: Library) -> None:
+    assert library.contracts("the") == []
+    assert library.contracts("the north pump") == library.contracts("north pump")
 
 
 def test_a_small_library_is_shown_whole(rules: Rules) -> None:
