@@ -1,5 +1,7 @@
 """Who the simulation waits for between two slices, and how long: lockstep membership and wall-clock pacing."""
 
+from collections.abc import Collection
+
 import msgspec
 
 from crew.clock import WALL, seconds_ns
@@ -27,6 +29,13 @@ class Lockstep:
         self.members: dict[str, Member] = {}
         self.dropped = 0
         self._acks = acks
+
+    async def gather(self, names: Collection[str], limit_s: float) -> None:
+        """Return when all of these take part, or after `limit_s` of wall time without some of them."""
+        deadline_ns = WALL.now_ns() + seconds_ns(limit_s)
+        while not self.members.keys() >= set(names) and (left_ns := deadline_ns - WALL.now_ns()) > 0:
+            await WALL.race(self._acks.changed(), left_ns / 1e9)
+            self._hear(0)
 
     async def wait(self, number: int, *, for_holders: bool) -> None:
         """Return when nobody is still working on slice `number`; `for_holders` minds those who withhold it as well."""

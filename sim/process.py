@@ -20,6 +20,8 @@ AHEAD = 1
 """Slices that the world may be ahead of the slowest participant: stepping and reacting then share the time."""
 AHEAD_PACED = 10
 """The same with `--speed N`: a machine that is too slow slows the world down, and no state goes stale by accident."""
+GATHER_S = 2.0
+"""Wall time that mission time waits, at its beginning, for robots that are yet to come."""
 TRUTH_EVERY = 2
 """Slices between two messages of truth."""
 
@@ -40,7 +42,8 @@ class Simulation:
         self._truths = bus.publisher(keys.sim_truth, qos=Qos.STATE)
 
     async def run(self) -> None:
-        """Advance until cancelled."""
+        """Advance until cancelled. Mission time begins once every robot hears it: the first telemetry reaches them."""
+        await self._lockstep.gather(self._vehicles.keys(), GATHER_S)
         number = 0
         while True:
             number += 1

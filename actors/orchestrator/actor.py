@@ -102,23 +102,21 @@ class Orchestrator:
     async def run(self) -> None:
         """Serve until cancelled."""
         keys, bus = self._keys, self._bus
-        states: KeepLatest[Letter[RobotState]] = KeepLatest(letters(RobotState))
-        cards: KeepLatest[Letter[RobotCard]] = KeepLatest(letters(RobotCard))
+        robots: KeepLatest[Letter[Message]] = KeepLatest(letters(RobotState, RobotCard))
         values = self._events(RobotValue)
         events = self._events(RobotEvent)
         people = self._events(Intake, Answer, CancelMission)
-        bus.subscribe(keys.robot_states, states)
-        bus.subscribe(keys.robot_cards, cards)
+        bus.subscribe(keys.robot_states, robots)
+        bus.subscribe(keys.robot_cards, robots)
         bus.subscribe(keys.robot_values, values)
         bus.subscribe(keys.robot_events, events)
         for key in (keys.intake, keys.mission_confirms, keys.mission_cancels):
             bus.subscribe(key, people)
         bus.watch_liveliness(keys.all_alive, self._on_liveliness)
         bus.queryable(keys.status, self._status)
-        self._boxes += [states, cards, self._desk.box]
+        self._boxes += [robots, self._desk.box]
         async with asyncio.TaskGroup() as self._group:
-            self._group.create_task(self._hear_states(states))
-            self._group.create_task(self._hear_cards(cards))
+            self._group.create_task(self._hear_robots(robots))
             self._group.create_task(self._hear_values(values))
             self._group.create_task(self._hear_events(events))
             self._group.create_task(self._hear_people(people))
@@ -127,18 +125,16 @@ class Orchestrator:
 
     # --- hearing
 
-    async def _hear_states(self, box: KeepLatest[Letter[RobotState]]) -> None:
+    async def _hear_robots(self, box: KeepLatest[Letter[Message]]) -> None:
+        """States and cards in the order in which they came: a state counts for nothing before its robot's card."""
         async for letter in box:
-            if self._own(letter, letter.message.robot):
-                self._world.take_state(letter.message, self._clock.now_ns())
-                self._watch.lift_stop()
-
-    async def _hear_cards(self, box: KeepLatest[Letter[RobotCard]]) -> None:
-        async for letter in box:
-            if self._own(letter, letter.message.robot) and self._world.take_card(letter.message):
-                robot = letter.message.robot
-                self._ledger.note("reboot", f"{robot} has started anew")
-                self.shell.dispatcher.lose(robot, f"{robot} has started anew")
+            match letter.message:
+                case RobotState() as state if self._own(letter, state.robot):
+                    self._world.take_state(state, self._clock.now_ns())
+                    self._watch.lift_stop()
+                case RobotCard() as card if self._own(letter, card.robot) and self._world.take_card(card):
+                    self._ledger.note("reboot", f"{card.robot} has started anew")
+                    self.shell.dispatcher.lose(card.robot, f"{card.robot} has started anew")
 
     async def _hear_values(self, box: Events[Letter[RobotValue]]) -> None:
         async for letter in box:

@@ -63,7 +63,10 @@ class OrchestratorWatch:
                 declaration.close()
 
     def _on_token(self, key: str, alive: bool) -> None:
+        """An orchestrator that has just come knows nobody: the robot says at once who it is."""
         self._gone = not alive
+        if alive:
+            self._actor.report.introduce()
 
     def _hear(self) -> None:
         for letter in self._beats.take():
@@ -72,9 +75,11 @@ class OrchestratorWatch:
                 self._refuse(problem)
             elif (beat.epoch, beat.count) > self._newest:
                 self._newest, self._refused = (beat.epoch, beat.count), ""
-                self._heard_ns, self.problem = letter.received_ns, ""
+                found, self._heard_ns, self.problem = bool(self.problem), letter.received_ns, ""
                 self._actor.admission.hear_epoch(beat.epoch)
                 self._stop.hear(beat)
+                if found:
+                    self._actor.report.state()
 
     def _refuse(self, problem: PermitProblem) -> None:
         """Counted each time; told once until a rightful one was heard, for they may come by the hundred."""

@@ -58,6 +58,11 @@ class Reporter:
                 self.values()
                 await self._clock.sleep(STATE_EVERY_S)
 
+    def introduce(self) -> None:
+        """Publish the card and the state now, for somebody who has only just come."""
+        self._cards.put(self._card)
+        self.state()
+
     def state(self) -> None:
         """Publish the state as it is now."""
         actor, readings = self._actor, self._adapter.fluents()
