@@ -14,6 +14,8 @@ class OrchestratorSpec(msgspec.Struct, frozen=True, kw_only=True):
     run_folder: str
     home: str
     epoch: int
+    version: str
+    """Of this distribution, for the journal's first record."""
     planner: str
     simulated: bool
     operator_key: bytes

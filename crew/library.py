@@ -6,6 +6,7 @@ Importing it stays cheap: the YAML reader and the models are imported when a fil
 from collections.abc import Mapping, Sequence
 from functools import cache
 from pathlib import Path
+from pkgutil import resolve_name
 from typing import TYPE_CHECKING
 
 from crew.errors import UsageError, nearest
@@ -18,6 +19,13 @@ if TYPE_CHECKING:
     from crew.contracts.skill import Kind
 
 KINDS_GROUP = "crew.kinds"
+SHIPPED_KINDS = {
+    "humanoid": "crew.contracts.kinds.humanoid:HUMANOID",
+    "quadcopter": "crew.contracts.kinds.quadcopter:QUADCOPTER",
+    "quadruped": "crew.contracts.kinds.quadruped:QUADRUPED",
+    "rover": "crew.contracts.kinds.rover:ROVER",
+}
+"""Kinds of this distribution: looked up without reading what is installed, which every process of a crew would do."""
 _HERE = Path(__file__).parent
 CREWS = _HERE / "crews"
 CONTRACTS = _HERE / "contracts" / "library"
@@ -98,7 +106,7 @@ def read_text(path: Path) -> str:
 
 def kind_names() -> list[str]:
     """The kinds that are installed."""
-    return sorted(_kind_entries())
+    return sorted({*SHIPPED_KINDS, *_kind_entries()})
 
 
 @cache
@@ -107,20 +115,26 @@ def load_kind(name: str) -> "Kind":
     from crew.contracts.kind_check import mistakes
     from crew.contracts.skill import Kind
 
-    entry = _kind_entries().get(name)
-    if entry is None:
-        raise UsageError(f"no kind is called {name!r}{nearest(name, kind_names())}")
+    place = SHIPPED_KINDS.get(name) or _installed_kind(name)
     try:
-        kind = entry.load()
+        kind = resolve_name(place)
     except (ImportError, AttributeError) as error:
-        raise UsageError(f"kind {name!r} ({entry.value}) can't be imported: {error}; reinstall its package") from error
+        raise UsageError(f"kind {name!r} ({place}) can't be imported: {error}; reinstall its package") from error
     if not isinstance(kind, Kind) or kind.name != name:
-        raise UsageError(f"{entry.value} is not a kind called {name!r}; correct the entry point of group {KINDS_GROUP}")
+        raise UsageError(f"{place} is not a kind called {name!r}; correct the entry point of group {KINDS_GROUP}")
     found = mistakes(kind)
     if found:
         told = "\n".join(f"  {text}" for text in found)
-        raise UsageError(f"kind {name!r} ({entry.value}) does not fit together:\n{told}")
+        raise UsageError(f"kind {name!r} ({place}) does not fit together:\n{told}")
     return kind
+
+
+def _installed_kind(name: str) -> str:
+    """Where a kind of another distribution is. Raises UsageError."""
+    entry = _kind_entries().get(name)
+    if entry is None:
+        raise UsageError(f"no kind is called {name!r}{nearest(name, kind_names())}")
+    return entry.value
 
 
 @cache

@@ -36,6 +36,8 @@ class Child(msgspec.Struct, frozen=True, kw_only=True):
     secrets: tuple[str, ...] = ()
     optional: bool = False
     """Nobody waits until it is ready, and its failure is told as an exit, whenever it comes."""
+    niceness: int = 0
+    """Above 0 it leaves the processor to the others, its own imports included."""
     grace_s: float = STOP_GRACE_S
     """How long it may take to end when everybody waits for the end."""
     ease_s: float = STOP_GRACE_S
@@ -143,6 +145,8 @@ class Supervisor:
                 env={name: value for name, value in os.environ.items() if name not in withheld},
                 process_group=0,
             )
+        if child.niceness:
+            os.setpriority(os.PRIO_PROCESS, process.pid, child.niceness)
         ours.setblocking(False)
         ready: asyncio.Future[None] = asyncio.get_running_loop().create_future()
         running = _Running(child, process, ours, log, ready, asyncio.Event())

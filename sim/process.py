@@ -1,5 +1,6 @@
 """The simulation process: steps the world slice by slice, publishes mission time and truth, takes faults."""
 
+import os
 from collections.abc import Mapping
 
 from crew.bus.port import Bus, Qos
@@ -88,6 +89,7 @@ class Simulation:
 async def main(context: ChildContext) -> None:
     """Open the world and the bus, and run until asked to stop."""
     spec = context.spec(SimulationSpec)
+    os.environ.setdefault("MUJOCO_GL", "disabled")  # its cameras cast rays: importing OpenGL would be in vain
     try:
         world = open_world(spec.world)
     except ValueError as error:

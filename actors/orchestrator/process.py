@@ -1,7 +1,6 @@
 """The orchestrator's process: journal, keys, epoch, clock and bus around the actor."""
 
 import asyncio
-from importlib.metadata import version
 from pathlib import Path
 
 from msgspec.structs import replace
@@ -94,7 +93,7 @@ def run_record(spec: OrchestratorSpec, rules: Rules, run: str) -> RunRecord:
     """The journal's first record."""
     return RunRecord(
         run=run,
-        version=version("robot-crew"),
+        version=spec.version,
         epoch=spec.epoch,
         authorizer=GATE if spec.enforced else PASS_THROUGH,
         planner=spec.planner,

@@ -5,10 +5,8 @@ missions' events all. Rerun is imported once the crew is up, so that nobody's st
 """
 
 import asyncio
-import os
 import time
 from collections.abc import Iterable
-from importlib.metadata import version
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -43,7 +41,6 @@ UP_S = 10.0
 """After this long a crew whose robots were not all heard counts as up all the same."""
 GONE_NS = seconds_ns(1.0)
 """Wall time after which a robot whose process is gone counts as lost: before that it may be the end of all."""
-NICENESS = 5
 SCENE_LIMIT = 64 << 20
 """Bytes: a scene with meshes."""
 
@@ -136,7 +133,6 @@ class Recorder:
 
 async def main(context: ChildContext) -> None:
     """Record until asked to stop, then close the file."""
-    os.nice(NICENESS)
     spec = context.spec(RecorderSpec)
     rules = unpack(spec.rules)
     async with ZenohBus(spec.link) as bus:
@@ -187,6 +183,8 @@ async def _all_there(states: KeepLatest[Letter[RobotState]], rules: Rules) -> No
 
 
 def _open_page(spec: RecorderSpec, rules: Rules, scene: SimScene | None) -> "Page":
+    from importlib.metadata import version
+
     from crew.actors.recorder.page import Page
 
     folder = Path(spec.run_folder)

@@ -1,6 +1,6 @@
 """A robot's adapter, found by the name in the crew file among those that are installed."""
 
-from importlib.metadata import entry_points
+from pkgutil import resolve_name
 
 from crew.adapter import Adapter, AdapterConfig
 from crew.clock import Clock
@@ -8,14 +8,16 @@ from crew.contracts.site import RobotSpec, Rules
 from crew.errors import UsageError, nearest
 
 ADAPTERS = "crew.adapters"
+SHIPPED = {
+    "mavlink": "crew.adapters.mavlink.adapter:MavlinkAdapter",
+    "unitree": "crew.adapters.unitree.adapter:UnitreeAdapter",
+}
+"""Adapters of this distribution: found without reading what else is installed."""
 
 
 def make_adapter(robot: RobotSpec, rules: Rules, connection: str, clock: Clock, *, enforced: bool = True) -> Adapter:
     """The adapter that the crew file names. Raises UsageError with the installed names for an unknown one."""
-    installed = {entry.name: entry for entry in entry_points(group=ADAPTERS)}
-    entry = installed.get(robot.adapter)
-    if entry is None:
-        raise UsageError(f"no adapter is called {robot.adapter!r}{nearest(robot.adapter, installed)}")
+    place = SHIPPED.get(robot.adapter) or _installed(robot.adapter)
     crew = rules.crew
     config = AdapterConfig(
         robot=robot.name,
@@ -30,7 +32,17 @@ def make_adapter(robot: RobotSpec, rules: Rules, connection: str, clock: Clock, 
         fitness=enforced,
     )
     try:
-        adapter: Adapter = entry.load()(config, clock)
+        adapter: Adapter = resolve_name(place)(config, clock)
     except ImportError as error:
         raise UsageError(f"adapter {robot.adapter!r} can't be imported: {error}; install robot-crew[all]") from error
     return adapter
+
+
+def _installed(name: str) -> str:
+    """Where an adapter of another distribution is. Raises UsageError."""
+    from importlib.metadata import entry_points
+
+    installed = {entry.name: entry.value for entry in entry_points(group=ADAPTERS)}
+    if name not in installed:
+        raise UsageError(f"no adapter is called {name!r}{nearest(name, {*SHIPPED, *installed})}")
+    return installed[name]

@@ -5,6 +5,7 @@ no tags, no key twice.
 """
 
 from collections.abc import Iterable
+from functools import lru_cache
 from typing import Any, NamedTuple
 
 Loc = tuple[str | int, ...]
@@ -124,8 +125,9 @@ class Problems:
             raise SourceErrors(self.errors)
 
 
+@lru_cache(maxsize=16)
 def parse(text: str, *, file: str) -> Block:
-    """The document as plain data with positions. Raises SourceErrors."""
+    """The document as plain data with positions, to be read only: the same text is parsed once. Raises SourceErrors."""
     from crew.contracts.files.yaml_reader import read  # ruamel.yaml is imported when a file is read, not before
 
     return read(text, file=file)

@@ -5,7 +5,6 @@ import time
 from contextlib import AbstractContextManager, AsyncExitStack
 
 from crew.bus.port import Sample
-from crew.cli.checklist import check_hardware
 from crew.cli.follow import event_box
 from crew.cli.output import coloured, say, say_event
 from crew.cli.presence import Change, Presence
@@ -13,6 +12,7 @@ from crew.cli.progress import proof_progress
 from crew.cli.session import home, run
 from crew.cli.status import stop_line
 from crew.clock import WALL
+from crew.contracts.site import Rules
 from crew.errors import UsageError
 from crew.launch.live import UNSECURED, LiveCrew, live_crew
 from crew.launch.options import LaunchOptions
@@ -41,8 +41,8 @@ async def _up(options: LaunchOptions, view: bool) -> int:
     began = time.monotonic()
     losses, run_folder = Losses(), None
     try:
-        await _check_real(options)
-        async with live_crew(options, home(), proof_progress) as crew:
+        rules = await _checked(options)
+        async with live_crew(options, home(), proof_progress, rules=rules) as crew:
             run_folder = crew.run_folder
             _introduce(crew, time.monotonic() - began)
             async with AsyncExitStack() as stack, asyncio.TaskGroup() as group:
@@ -59,11 +59,14 @@ async def _up(options: LaunchOptions, view: bool) -> int:
     return 1 if losses.count else 0
 
 
-async def _check_real(options: LaunchOptions) -> None:
-    """Real robots are met and asked first; a crew of simulated ones has nothing to check."""
+async def _checked(options: LaunchOptions) -> Rules:
+    """The run's rules. Real robots are met and asked first; a crew of simulated ones has nothing to check."""
     rules = resolve(options)
     if any(robot.connection for robot in rules.crew.robots):
+        from crew.cli.checklist import check_hardware
+
         await check_hardware(rules)
+    return rules
 
 
 def live_page(port: int) -> AbstractContextManager[str]:

@@ -22,7 +22,6 @@ from crew.keys import Keys
 from crew.launch.options import LaunchOptions
 from crew.launch.ready import await_ready
 from crew.launch.reported import reported
-from crew.launch.single import SingleProcess
 from crew.launch.site import resolve
 from crew.launch.table import RECORDER, free_tcp_port, process_table, roles
 from crew.messages import CrewStatus
@@ -68,9 +67,14 @@ async def live_crew(
     options: LaunchOptions,
     home: Home,
     progress: Callable[[], AbstractContextManager[Progress | None]] = nullcontext,
+    *,
+    rules: Rules | None = None,
 ) -> AsyncIterator[LiveCrew]:
-    """Bring a crew up; yield it once a round trip through its keys has shown every robot; bring it down."""
-    rules = resolve(options)
+    """Bring a crew up; yield it once a round trip through its keys has shown every robot; bring it down.
+
+    `rules` are what the options resolve to, if that was done before.
+    """
+    rules = rules or resolve(options)
     check_choice(options.planning, os.environ)
     establish(home.certificates(rules.crew.name), roles(rules.crew))
     with progress() as tell:
@@ -96,6 +100,8 @@ async def live_crew(
             view_port=view_port,
         )
         if options.single_process:
+            from crew.launch.single import SingleProcess
+
             runner: Supervisor | SingleProcess = SingleProcess(run_folder)
         else:
             runner = Supervisor(run_folder, on_exit=exits.put_nowait)

@@ -2,6 +2,7 @@
 
 import socket
 from collections.abc import Mapping
+from importlib.metadata import version
 from pathlib import Path
 
 from crew.access import ROBOT_PREFIX, ROUTER, Role, identities
@@ -16,6 +17,7 @@ from crew.sim.spec import SimulationSpec
 from crew.supervisor import Child
 
 RECORDER = "recorder"
+RECORDER_NICENESS = 5
 RECORDER_GRACE_S = 0.9
 """What a recording may take to be closed after Ctrl-C: all must be gone within 2 s."""
 RECORDER_EASE_S = 8.0
@@ -44,6 +46,7 @@ def process_table(
         run_folder=str(run_folder),
         home=str(home),
         epoch=epoch,
+        version=version("robot-crew"),
         planner=options.planning.name,
         simulated=simulated,
         operator_key=operator_key,
@@ -96,6 +99,7 @@ def _recorder(spec: RecorderSpec) -> Child:
         spec=spec,
         last=True,
         optional=True,
+        niceness=RECORDER_NICENESS,
         grace_s=RECORDER_GRACE_S,
         ease_s=RECORDER_EASE_S,
     )

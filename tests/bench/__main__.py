@@ -109,7 +109,7 @@ def second_testbed() -> Iterator[Row]:
 
 
 def command_line() -> Iterator[Row]:
-    """What a person waits for, with bytecode compiled as an installation leaves it: without, each start compiles all."""
+    """What a person waits for. Bytecode is compiled, as an installation leaves it: else every process would compile."""
     for folder in SOURCES:
         compileall.compile_dir(folder, quiet=1)
     yield at_most("crew --help, median of 7", median(_timed([*CREW, "--help"]) for _ in range(7)), 0.3, "s")

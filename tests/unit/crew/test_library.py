@@ -2,12 +2,14 @@
 
 import subprocess
 import sys
-from importlib.metadata import EntryPoint
+from importlib.metadata import EntryPoint, distribution
 from pathlib import Path
 
 import pytest
 
 from crew import library
+from crew.actors.robot import fitting
+from crew.contracts.files.source import SourceErrors, parse
 from crew.contracts.kinds.rover import ROVER
 from crew.errors import UsageError
 from crew.library import contract_names, crew_names, kind_names, load_crew_file, load_kind, load_rules, read_text
@@ -174,6 +176,28 @@ def test_a_broken_kind_is_said_plainly(monkeypatch: pytest.MonkeyPatch, target: 
     monkeypatch.setattr(library, "_kind_entries", lambda: {"broken": entry})
     with pytest.raises(UsageError, match=words):
         load_kind("broken")
+
+
+def test_the_tables_of_what_is_shipped_are_the_distributions_entry_points() -> None:
+    shipped = distribution("robot-crew").entry_points
+    kinds = {entry.name: entry.value for entry in shipped.select(group=library.KINDS_GROUP)}
+    adapters = {entry.name: entry.value for entry in shipped.select(group=fitting.ADAPTERS)}
+    assert (kinds, adapters) == (library.SHIPPED_KINDS, fitting.SHIPPED)
+
+
+def test_nobody_elses_kind_takes_the_name_of_a_shipped_one(monkeypatch: pytest.MonkeyPatch) -> None:
+    entry = EntryPoint("rover", "no_such_package.kinds:ROVER", library.KINDS_GROUP)
+    monkeypatch.setattr(library, "_kind_entries", lambda: {"rover": entry})
+    load_kind.cache_clear()
+    assert load_kind("rover").name == "rover"
+
+
+def test_a_text_is_parsed_once_and_a_mistake_is_told_each_time() -> None:
+    assert parse("a: 1", file="x.yaml") is parse("a: 1", file="x.yaml")
+    assert parse("a: 1", file="x.yaml") is not parse("a: 1", file="y.yaml")
+    for _ in range(2):
+        with pytest.raises(SourceErrors, match=r"x\.yaml:1"):
+            parse("a: [", file="x.yaml")
 
 
 def test_an_unknown_kind_names_the_nearest() -> None:

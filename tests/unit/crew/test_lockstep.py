@@ -70,6 +70,25 @@ async def test_nobody_is_waited_for_before_anybody_joined(stage: Stage) -> None:
     assert await within(stage.lockstep.wait(1, for_holders=True), 0.5)
 
 
+async def test_mission_time_does_not_begin_before_every_robot_takes_part(stage: Stage) -> None:
+    gathering = asyncio.ensure_future(stage.lockstep.gather({"iris", "tb3"}, 60.0))
+    await stage.ack(-1)
+    assert not await within(asyncio.shield(gathering), 0.05)
+    await stage.ack(-1, "tb3")
+    assert await within(gathering)
+    waiting = asyncio.ensure_future(stage.lockstep.wait(1, for_holders=True))
+    assert not await within(asyncio.shield(waiting), 0.05), "both take part from the first slice on"
+    await stage.ack(1)
+    await stage.ack(1, "tb3")
+    assert await within(waiting)
+
+
+async def test_a_robot_that_does_not_come_holds_the_beginning_up_for_a_while_only(stage: Stage) -> None:
+    await stage.ack(-1)
+    assert await within(stage.lockstep.gather({"iris", "tb3"}, 0.01))
+    assert set(stage.lockstep.members) == {"iris"}
+
+
 async def test_a_participant_that_joins_after_a_tick_went_out_does_not_hold_that_slice(stage: Stage) -> None:
     follower = Participant(stage.robot, KEYS, "iris", stage.clock)
     task = asyncio.ensure_future(follower.run())
