@@ -1,0 +1,1 @@
+"""The commands, a file for each group of them. Each command imports what it needs when it runs."""
