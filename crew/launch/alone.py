@@ -67,6 +67,7 @@ def running_at(crew: str, home: Home, router: str, guests: str) -> Running:
 
 async def serve(child: Child, *, tell: str) -> None:
     """Run it until it ends or is cancelled; print `tell` once it serves."""
+    os.nice(child.niceness)
     context = InlineContext(child.spec)
     main = asyncio.ensure_future(importlib.import_module(child.module).main(context))
     started = asyncio.ensure_future(context.started.wait())
