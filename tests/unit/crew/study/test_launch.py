@@ -51,6 +51,7 @@ def _orchestrator(rules: Rules, tmp_path: Path) -> OrchestratorSpec:
         run_folder=str(tmp_path),
         home=str(tmp_path),
         epoch=1,
+        version="0",
         planner="script",
         simulated=True,
         operator_key=b"",
