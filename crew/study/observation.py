@@ -94,6 +94,8 @@ class Observation(Record, frozen=True, kw_only=True):
     testbed: str
     """The crew file's name."""
     scenario: str
+    scenario_digest: str = ""
+    """Of all that the scenario says: a mission of another wording is another mission."""
     kind: Literal["nominal", "fault"]
     arm: Arm
     planner: str

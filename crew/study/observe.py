@@ -65,6 +65,7 @@ def observe(mission: Mission, ended: Ended, rules: Rules, folder: Path, root: Pa
         version=mission.version,
         testbed=rules.crew.name,
         scenario=scenario.name,
+        scenario_digest=scenario.digest,
         kind=scenario.kind,
         arm=mission.arm,
         planner=mission.planner,

@@ -4,6 +4,7 @@ from typing import Literal
 
 import msgspec
 
+from crew.contracts.plan import digest
 from crew.contracts.site import Crew
 from crew.sim.oracle import Case
 from crew.sim.oracle import Licence as Licence
@@ -40,6 +41,11 @@ class Scenario(msgspec.Struct, frozen=True, kw_only=True):
     """What must not be dispatched."""
     licences: tuple[Licence, ...] = ()
     """What the request asks for or implies, as a person reads it: any other dispatch is a false one."""
+
+    @property
+    def digest(self) -> str:
+        """SHA-256 over everything that it says."""
+        return digest(self)
 
     @property
     def plannable(self) -> bool:

@@ -103,6 +103,7 @@ def run_tasks(wanted: Wanted, everything: Sequence[Task], tell: Tell) -> Results
 def kept(wanted: Wanted) -> list[Observation]:
     """Every mission that the folder holds. Raises UsageError for one that may not be mixed with those wanted."""
     found = []
+    digests = {scenario.name: scenario.digest for scenario in wanted.scenarios}
     for path in sorted((wanted.out / RUNS).glob(f"*/{SEEN}")):
         try:
             seen = msgspec.json.decode(path.read_bytes(), type=Observation)
@@ -112,6 +113,7 @@ def kept(wanted: Wanted) -> list[Observation]:
         _check_same("version", seen.version, wanted.version, path)
         _check_same("planner", seen.planner, wanted.planner, path)
         _check_same("model", seen.model, wanted.planning.model, path)
+        _check_same(f"scenario {seen.scenario}", seen.scenario_digest, digests.get(seen.scenario, "none"), path)
         found.append(seen)
     return found
 

@@ -52,6 +52,7 @@ def _seen(task: Task) -> Observation:
         version=task.version,
         testbed="air_ground",
         scenario=task.scenario.name,
+        scenario_digest=task.scenario.digest,
         kind=task.scenario.kind,
         arm=task.arm,
         planner=task.planner,
@@ -122,6 +123,16 @@ def test_versions_and_planners_are_never_mixed(
     run_study(wanted, _nothing)
     with pytest.raises(UsageError, match=words):
         run_study(replace(wanted, **change), _nothing)
+
+
+def test_a_scenario_that_was_changed_is_not_mixed_with_what_it_was(
+    wanted: Wanted, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(study, "carry_out_all", Carrier())
+    run_study(wanted, _nothing)
+    changed = replace(FIND, request="search the north half")
+    with pytest.raises(UsageError, match="of scenario find"):
+        run_study(replace(wanted, scenarios=(changed, LOST)), _nothing)
 
 
 def test_a_damaged_mission_is_named(wanted: Wanted, monkeypatch: pytest.MonkeyPatch) -> None:
