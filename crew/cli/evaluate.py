@@ -19,6 +19,7 @@ from crew.errors import UsageError, nearest
 from crew.launch.options import LaunchOptions
 from crew.proofs import ensure_proved
 from crew.study.ablate import arms_of, run_ablation
+from crew.study.figures import PAGE
 from crew.study.launch import UNENFORCED, simulated_rules
 from crew.study.observation import Observation, Results
 from crew.study.publish import RESULTS
@@ -27,8 +28,9 @@ from crew.study.study import Wanted, run_study
 from crew.study.version import study_version
 
 MOST_JOBS = 64
-ABLATE, FUZZ = "ablate", "fuzz"
-"""What may stand before a crew, and what may stand alone."""
+ABLATE, FUZZ, SUBSTITUTION, FIGURES = "ablate", "fuzz", "substitution", "figures"
+WORDS = (ABLATE, SUBSTITUTION, FIGURES, FUZZ)
+"""What may stand before a crew; the last may only stand alone."""
 
 
 class EvalOptions(msgspec.Struct, frozen=True, kw_only=True):
@@ -49,24 +51,14 @@ class EvalOptions(msgspec.Struct, frozen=True, kw_only=True):
 
 def what_of(words: Sequence[str]) -> tuple[str, str]:
     """What is to be done (empty for a study) and the crew. Raises UsageError for more words than that."""
-    what = words[0] if words and words[0] in (ABLATE, FUZZ) else ""
+    what = words[0] if words and words[0] in WORDS else ""
     rest = words[1:] if what else words
     if len(rest) > 1 or (what == FUZZ and rest):
         raise UsageError(
-            f"crew eval can't be told {' '.join(words)!r}; write crew eval CREW, crew eval {ABLATE} CREW, "
-            f"or crew eval {FUZZ}"
+            f"crew eval can't be told {' '.join(words)!r}; write crew eval CREW, crew eval {FUZZ}, "
+            f"or one of {ABLATE}, {SUBSTITUTION}, {FIGURES} before CREW"
         )
     return what, rest[0] if rest else "air_ground"
-
-
-def run_fuzz(seed: int, plans: int, mutants: Sequence[str], jobs: int, out: Path) -> int:
-    """0 if the gate let nothing unsafe pass and every mutant that was asked for died; 1 otherwise."""
-    from crew.study.fuzz.command import fuzz, write
-
-    results = fuzz(seed, plans, mutants, jobs, lambda text: print(text, file=sys.stderr, flush=True))
-    for path in write(results, out):
-        say(f"written: {path}")
-    return 0 if results.sound else 1
 
 
 def run_eval(options: EvalOptions) -> int:
@@ -167,4 +159,4 @@ def _conclude(results: Results, wanted: Wanted, wall_s: float, *, as_json: bool)
         sent = sum(len(o.sent) for o in mine)
         met = sum(o.as_expected for o in mine)
         say(f"{arm.value:10} {met} of {len(mine)} missions as they must be; {false} of {sent} dispatches were false")
-    say(f"{len(seen)} missions are in {path}; {wall_s:.0f} s now")
+    say(f"{len(seen)} missions are in {path}, their figures in {wanted.out / PAGE}; {wall_s:.0f} s now")

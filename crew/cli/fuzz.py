@@ -1,20 +1,21 @@
 """`crew eval fuzz`: plans and worlds from no planner against the real gate; the page, and an exit code."""
 
 import sys
+from collections.abc import Sequence
 from pathlib import Path
 
 from crew.cli.output import say, say_json
 from crew.study.fuzz.command import fuzz, write
 
 
-def run_fuzz(seed: int, plans: int, mutants: tuple[str, ...], out: Path, as_json: bool) -> int:
+def run_fuzz(seed: int, plans: int, mutants: Sequence[str], jobs: int, out: Path, *, as_json: bool = False) -> int:
     """0 if nothing unsafe was sent and no mutant lives, 1 otherwise. Raises UsageError for a wrong option."""
     terminal = sys.stderr.isatty()
 
     def told(what: str) -> None:
         print(f"\r\033[K{what}" if terminal else what, end="" if terminal else "\n", file=sys.stderr, flush=True)
 
-    results = fuzz(seed, plans, mutants, told=told)
+    results = fuzz(seed, plans, mutants, jobs, told)
     told("")
     text, data = write(results, out)
     tally, alive = results.tally, [killed.name for killed in results.mutants if killed.case < 0]

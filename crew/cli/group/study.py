@@ -15,8 +15,9 @@ def evaluate(
     words: Annotated[
         list[str] | None,
         typer.Argument(
-            metavar="[CREW | ablate CREW | fuzz]",
-            help="A crew's name or file: a study; after ablate: its plans held over arms; fuzz: the gate alone.",
+            metavar="[CREW | ablate CREW | substitution CREW | figures CREW | fuzz]",
+            help="A crew's name or file: a study; after ablate: its plans held over arms. Without robots: "
+            "substitution of names that do not exist, figures of --out made anew, fuzz of the gate.",
         ),
     ] = None,
     arms: Annotated[str, typer.Option(help="all, or some of llm-only,skill-list,ro-prompt,ro.")] = "all",
@@ -40,15 +41,31 @@ def evaluate(
     as_json: AsJson = False,
 ) -> None:
     """Carry out a study in simulation: scenarios in four arms, live, judged by the simulation's truth."""
-    from crew.cli.evaluate import ABLATE, FUZZ, EvalOptions, run_eval, run_fuzz, what_of
+    from crew.cli.evaluate import ABLATE, EvalOptions, run_eval, what_of
 
     what, crew = what_of(words or [])
-    if what == FUZZ:
-        end(run_fuzz(seed, plans, mutant or (), jobs, out))
+    planning = planning_of(planner, script, model, base_url, endpoint, "contracts", True)
+    if what not in ("", ABLATE):
+        from crew.cli.study import OfflineOptions, run_offline
+
+        offline = OfflineOptions(
+            what=what,
+            crew=crew,
+            planning=planning,
+            seed=seed,
+            seeds=seeds,
+            out=out,
+            scenarios=scenarios,
+            jobs=jobs,
+            plans=plans,
+            mutants=tuple(mutant or ()),
+            as_json=as_json,
+        )
+        end(run_offline(offline))
     options = EvalOptions(
         crew=crew,
         arms=arms,
-        planning=planning_of(planner, script, model, base_url, endpoint, "contracts", True),
+        planning=planning,
         seed=seed,
         seeds=seeds,
         out=out,

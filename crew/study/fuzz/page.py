@@ -1,12 +1,12 @@
 """docs/study/fuzz.md: rules, counts and mutants, written by the command alone."""
 
 from collections.abc import Iterator, Sequence
-from importlib.metadata import version
 
 import msgspec
 
 from crew.study.fuzz.mutant import Killed
 from crew.study.fuzz.run import Tally
+from crew.study.version import study_version
 
 RULES = {
     "asked": "every call is one that the person means by the request, nothing meant is left out, the contract is right",
@@ -58,7 +58,7 @@ class Results(msgspec.Struct, frozen=True, kw_only=True):
 def made(seed: int, processes: int, seconds: float, tally: Tally, mutants: Sequence[Killed], most: int) -> Results:
     """Results of this version."""
     return Results(
-        version=version("robot-crew"),
+        version=study_version(),
         seed=seed,
         processes=processes,
         seconds=round(seconds, 1),
