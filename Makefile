@@ -42,8 +42,10 @@ study: .venv/.ready  ## both testbeds in four arms, RO on five seeds (PLANNER=fa
 	@for crew in air_ground humanoid_quadruped; do \
 	  $(BIN)/crew eval $$crew --planner $(PLANNER) --out $(STUDY)/$$crew && \
 	  $(BIN)/crew eval $$crew --planner $(PLANNER) --arms ro --seeds 5 --out $(STUDY)/$$crew && \
-	  $(BIN)/crew eval ablate $$crew --planner $(PLANNER) --arms ro --out $(STUDY)/$$crew-held || exit $$?; \
+	  $(BIN)/crew eval ablate $$crew --planner $(PLANNER) --arms ro --out $(STUDY)/$$crew-held && \
+	  $(BIN)/crew eval substitution $$crew --planner $(PLANNER) --seeds 10 --out docs/study || exit $$?; \
 	done
+	$(BIN)/crew eval fuzz --plans 100000 --mutant all --seed 2026 --out docs/study
 
 accuracy: .venv/.ready  ## accuracy and faults of air_ground, deliveries of humanoid_quadruped, by seed, into docs/study
 	$(BIN)/python -m crew.study.air_ground --out docs/study --runs runs/study
