@@ -82,11 +82,12 @@ def _between(frames: Sequence[Frame], start_ns: int, end_ns: int) -> list[Frame]
 
 
 def _travel_m(robot: str, frames: Sequence[Frame], axes: int = 3) -> float:
-    """The greatest distance from where it was at first; with two axes a landing is no motion."""
+    """The greatest distance of the robot or its hand from where it was at first; with two axes a landing is none."""
     if not frames:
         return 0.0
-    first = frames[0].poses[robot]
-    return max(math.dist(first[:axes], frame.poses[robot][:axes]) for frame in frames)
+    poses = [frame.poses[robot][:axes] for frame in frames]
+    hands = [frame.hands[robot][:axes] for frame in frames if robot in frame.hands]
+    return max(math.dist(way[0], place) for way in (poses, hands) if way for place in way)
 
 
 def _finding(rule: str, one: Sent, text: str) -> Finding:

@@ -27,11 +27,13 @@ SAME = 0.01
 
 
 class Frame(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
-    """The truth at one moment: poses x, y, z, yaw and targets x, y, z; world ENU, metres and radians."""
+    """The truth at one moment: poses x, y, z, yaw; targets and hands x, y, z; world ENU, metres and radians."""
 
     at_ns: int
     poses: Mapping[str, tuple[float, float, float, float]]
     targets: Mapping[str, tuple[float, float, float]]
+    hands: Mapping[str, tuple[float, float, float]] = {}
+    """Where the hand of a robot is that has one: an arm moves while the robot stands."""
 
 
 class Sent(msgspec.Struct, frozen=True, kw_only=True):

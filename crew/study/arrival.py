@@ -4,7 +4,7 @@ import math
 
 from crew.contracts.language.words import REQUESTER
 from crew.contracts.site import Rules
-from crew.contracts.skill import Entity, Skill
+from crew.contracts.skill import NOTHING, Entity, Skill
 from crew.messages import PlannedStep, SimTruth
 
 Spot = tuple[float, float]
@@ -13,14 +13,15 @@ Spot = tuple[float, float]
 def goal_error_m(steps: tuple[PlannedStep, ...], truth: SimTruth, rules: Rules) -> float | None:
     """From what was to arrive (the object that the plan handles, else the robot of the last destination) to where.
 
-    Horizontal, metres. An object without a destination was for the person who asks. None if the plan goes nowhere.
+    Horizontal, metres. An object without a destination was for the person who asks, if it is let go. None if the plan
+    goes nowhere.
     """
     handled = next((name for step in reversed(steps) if (name := _object(step, rules)) in truth.targets), None)
     for step in reversed(steps):
         goal = _goal(step, truth, rules)
         if goal is not None:
             return _apart_m(truth.targets[handled] if handled else truth.poses.get(step.robot), goal)
-    if handled is None or REQUESTER not in truth.targets:
+    if handled is None or REQUESTER not in truth.targets or not any(_lets_go(step, rules) for step in steps):
         return None
     return _apart_m(truth.targets[handled], truth.targets[REQUESTER][:2])
 
@@ -44,6 +45,12 @@ def _object(step: PlannedStep, rules: Rules) -> str | None:
     params = () if skill is None else skill.params
     found = (step.args.get(p.name) for p in params if p.entity is Entity.OBJECT)
     return next((name for name in found if isinstance(name, str)), None)
+
+
+def _lets_go(step: PlannedStep, rules: Rules) -> bool:
+    """Whether the robot holds nothing afterwards; an object that is held up is brought to nobody."""
+    skill = _skill(step, rules)
+    return skill is not None and NOTHING in skill.effects.values()
 
 
 def _goal(step: PlannedStep, truth: SimTruth, rules: Rules) -> Spot | None:

@@ -19,6 +19,8 @@ from crew.study.scenario import Scenario
 
 TRUTH, ENDED = "truth.msgpack", "ended.json"
 """In a run's folder: the simulation's truth, every 0.1 s of mission time, and how the mission ended."""
+HAND = "hand"
+"""The body of a simulated vehicle that is its hand."""
 LIMIT_S = 180.0
 """Wall time after which a mission counts as one without an outcome."""
 READY_S = 10.0
@@ -48,7 +50,7 @@ async def fly(options: LaunchOptions, scenario: Scenario, home: Home, run_folder
         crew.bus.subscribe(crew.keys.sim_truth, truths)
         began_ns = await _begin(crew, truths, frames, scenario)
         last = await _ask(crew.bus, crew.keys, scenario.request)
-        await _hear_out(truths, frames)
+        await _hear_out(truths, frames, crew)
     ended = _ended(last, began_ns)
     (run_folder / TRUTH).write_bytes(msgspec.msgpack.encode(frames))
     (run_folder / ENDED).write_bytes(msgspec.json.encode(ended))
@@ -80,7 +82,7 @@ async def _begin(crew: StudyCrew, truths: Events[Letter[SimTruth]], frames: list
         missing -= {letter.message.reading.name for letter in values.take()}
     if not await WALL.race(truths.changed(), READY_S):
         raise BusError(f"the simulation told no truth within {READY_S:g} s")
-    _take(truths, frames)
+    _take(truths, frames, crew)
     began_ns = frames[-1].at_ns
     for name, after_s in scenario.faults_later.items():
         at_s = began_ns / SECOND_NS + after_s
@@ -111,15 +113,17 @@ async def _ask(bus: Bus, keys: Keys, request: str) -> MissionEvent | None:
     return None
 
 
-async def _hear_out(truths: Events[Letter[SimTruth]], frames: list[Frame]) -> None:
+async def _hear_out(truths: Events[Letter[SimTruth]], frames: list[Frame], crew: StudyCrew) -> None:
     """Everything that was heard so far, and a moment more."""
-    _take(truths, frames)
+    _take(truths, frames, crew)
     end_ns = frames[-1].at_ns + round(AFTER_S * SECOND_NS)
     while frames[-1].at_ns < end_ns and await WALL.race(truths.changed(), READY_S):
-        _take(truths, frames)
+        _take(truths, frames, crew)
 
 
-def _take(truths: Events[Letter[SimTruth]], frames: list[Frame]) -> None:
+def _take(truths: Events[Letter[SimTruth]], frames: list[Frame], crew: StudyCrew) -> None:
+    hands = {robot.name: f"{robot.sim}/{HAND}" for robot in crew.rules.crew.robots}
     while heard := truths.take():
-        truth = [letter.message for letter in heard]
-        frames += [Frame(at_ns=t.at_ns, poses=t.poses, targets=t.targets) for t in truth]
+        for truth in (letter.message for letter in heard):
+            seen = {robot: truth.bodies[body][:3] for robot, body in hands.items() if body in truth.bodies}
+            frames.append(Frame(at_ns=truth.at_ns, poses=truth.poses, targets=truth.targets, hands=seen))

@@ -17,7 +17,7 @@ from crew.contracts.plan import Call, Plan
 from crew.contracts.site import Rules
 from crew.contracts.snapshot import FluentValue, Point, Snapshot
 from crew.library import load_rules
-from crew.sim.consequence import consequences
+from crew.sim.consequence import consequences, moved
 from crew.sim.oracle import Case, Frame, Licence, Sent, false_dispatch, order_broken
 from tests.unit.contracts import build as b
 
@@ -255,3 +255,13 @@ def test_motion_after_a_stop_is_found_and_a_landing_is_none() -> None:
 
     assert found(2.0, 5.0) == ["moved_after_stop"]
     assert found(0.0, 0.0) == []
+
+
+def test_an_arm_that_moves_while_its_robot_stands_has_moved() -> None:
+    stands = {"g1": (0.0, 0.0, 0.0, 0.0)}
+    frames = tuple(
+        Frame(at_ns=at_s * SECOND_NS, poses=stands, targets={}, hands={"g1": (x, 0.0, 0.9)})
+        for at_s, x in ((0, 0.2), (1, 0.6))
+    )
+    assert moved(frames) == ("g1",)
+    assert moved(frames[:1]) == ()
