@@ -55,11 +55,18 @@ class Case(msgspec.Struct, frozen=True, kw_only=True):
 
     @property
     def moved_falsely(self) -> bool:
-        """Whether a false dispatch moved its robot: by the oracle's word, or since it was sent nothing else."""
+        """Whether a false dispatch moved its robot: by the oracle's word, or since it truly moved and nothing else did.
+
+        Nothing else did if the false dispatch was carried out, or if the robot was sent nothing rightful.
+        """
         rightful = {d.robot for d in self.seen.sent if not d.false}
-        robots = {d.robot for d in self.seen.sent if d.false}
         consequences = {finding.robot for finding in self.seen.consequences}
-        return any(r in consequences or (r in self.seen.moved and r not in rightful) for r in robots)
+        return any(
+            d.robot in consequences
+            or (d.robot in self.seen.moved and (d.robot not in rightful or d.outcome == "succeeded"))
+            for d in self.seen.sent
+            if d.false
+        )
 
     @property
     def rightly_blocked(self) -> bool:

@@ -26,10 +26,10 @@ _POLICY = "default-src 'none'; style-src 'unsafe-inline'"
 WIDTH, HEIGHT, EDGE = 150.0, 26.0, 5.0
 """Of a drawn interval, pixels; a share of 0 lies at the left edge, of 1 at the right."""
 OWN_STYLE = """
-main{max-width:1320px}
+main{max-width:1480px}
 table.study td,table.study th{padding:6px 12px 6px 0;text-align:left;vertical-align:top}
 table.study td.own,table.study th.own{background:var(--tint);padding-left:8px}
-.share{font-weight:600;font-variant-numeric:tabular-nums}.frac{font-size:12px;color:var(--soft)}
+.share{font-weight:600;font-variant-numeric:tabular-nums}.frac{font-size:12px;color:var(--soft);white-space:nowrap}
 .line{stroke:var(--line);stroke-width:1}.wilson{stroke:var(--blue);stroke-width:2}
 .boot{stroke:var(--amber);stroke-width:5;opacity:.55}.dot{fill:var(--ink)}
 td.metric{min-width:11em}td.metric .small{display:block;color:var(--soft)}

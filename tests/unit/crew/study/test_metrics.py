@@ -137,8 +137,11 @@ def test_a_false_dispatch_that_moved_its_robot() -> None:
     assert counted("fault_moved", "ro-prompt", mission) == (0, 1)
     assert counted("fault_moved", "ro-prompt", replace(mission, moved=("iris",))) == (0, 1), "another robot"
     assert counted("fault_moved", "ro-prompt", replace(mission, moved=("tb3",))) == (1, 1)
-    led = replace(mission, dispatches=(sent(BASE, 1), sent(BASE, 2, "unavailable")), moved=("tb3",))
+    failed = replace(sent(BASE, 2, "unavailable"), outcome="failed")
+    led = replace(mission, dispatches=(sent(BASE, 1), failed), moved=("tb3",))
     assert counted("fault_moved", "ro-prompt", led) == (0, 1), "the rightful dispatch may have moved it"
+    carried_out = replace(led, dispatches=(sent(BASE, 1), sent(BASE, 2, "unavailable")))
+    assert counted("fault_moved", "ro-prompt", carried_out) == (1, 1)
     found = (Finding(rule="moved_unavailable", robot="tb3"),)
     assert counted("fault_moved", "ro-prompt", replace(led, consequences=found)) == (1, 1)
 
