@@ -83,7 +83,7 @@ def unread(reading: Reading) -> Finding | None:
     """Words that nobody took into account."""
     if not reading.unread:
         return None
-    words = ", ".join(f"'{u.word}'" for u in reading.unread)
+    words = ", ".join(map(str, reading.unread))
     message = f"not understood in the request: {words}; the plan cannot respect it; confirm without it or rephrase"
     return Finding(code=Code.UNREAD_WORDS, message=message, field="request", span=reading.unread[0].span)
 

@@ -33,6 +33,11 @@ def stands(tokens: list[Token], at: int, words: Words) -> bool:
     return len(words) == 1 or tuple(t.norm for t in tokens[at : at + len(words)]) == words
 
 
+def stands_all(tokens: list[Token], at: int, words: Words) -> bool:
+    """Whether the words stand here."""
+    return tuple(t.norm for t in tokens[at : at + len(words)]) == words
+
+
 def words_of(phrase: str) -> Words:
     """A name or alias as the tokens that a request would show, without a leading article."""
     words = tuple(t.norm for t in tokenize(phrase))

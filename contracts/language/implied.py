@@ -7,8 +7,9 @@ from collections.abc import Iterator
 
 from crew.contracts.language.inflect import Form
 from crew.contracts.language.lexicon import Lexicon
-from crew.contracts.language.mention import MentionKind, StepRef
+from crew.contracts.language.mention import ROBOT_KINDS, MentionKind, StepRef, Unread
 from crew.contracts.language.piece import Piece, before, behind
+from crew.contracts.language.tokens import Token
 from crew.contracts.language.words import PLACE_NOUNS, Role
 
 _MOVED = {True: ("go", "send"), False: ("carry", "bring", "take", "put")}
@@ -18,24 +19,91 @@ _FIND = "find"
 _PLACES = (MentionKind.LOCATION, MentionKind.VALUE, MentionKind.POINT)
 
 
-def implied_verbs(pieces: list[Piece], lexicon: Lexicon) -> None:
-    """Insert the verb of a request that has none."""
+def implied_verbs(pieces: list[Piece], text: str, tokens: list[Token], lexicon: Lexicon) -> list[Unread]:
+    """Insert the verb of a request that has none; return what was left unsaid and has to be asked back."""
+    _wished_states(pieces)
     if any(p.is_action for p in pieces):
-        return
+        return []
     if (noun := _place_asked_for(pieces)) is not None:
         noun.role, noun.kind, noun.name = Role.MENTION, MentionKind.ACTION, _FIND
         noun.means = tuple(dict.fromkeys(_means((_FIND,), lexicon)))
-        return
+        return []
+    if (low := _down(pieces)) is not None:
+        words = ("come", "down")
+        low.role, low.kind, low.name = Role.MENTION, MentionKind.ACTION, " ".join(words)
+        low.means = tuple(ref for e in lexicon.names.get(words[0], ()) if e.words == words for ref in e.means)
+        if not low.means:
+            low.become(Role.UNREAD)
+        return []
+    for at in range(len(pieces)):
+        if _insert(pieces, at, _words(pieces, at), lexicon):
+            return []
+    return _unsaid(pieces, text, tokens, lexicon)
+
+
+def _wished_states(pieces: list[Piece]) -> None:
+    """`I need the cube to be in room_b`, `it is needed that the bottle is on the table`: a state is wished for."""
     for at, piece in enumerate(pieces):
-        words = _words(pieces, at)
-        means = tuple(dict.fromkeys(_means(words, lexicon)))
-        if words and means:
-            verb = Piece(piece.first, piece.after, Role.MENTION, norm=words[0], kind=MentionKind.ACTION, name=words[0])
-            verb.means, verb.form = means, Form.BASE
-            owner = piece if piece.is_robot else before(pieces, at)
-            by_robot = owner is not None and owner.is_robot
-            pieces.insert((at + 1 if piece.is_robot else at) if by_robot else _first_of_name(pieces, at), verb)
-            return
+        placed = piece.role is Role.BE and at + 1 < len(pieces) and pieces[at + 1].role is Role.AT
+        if not placed or at == 0:
+            continue
+        denied = at > 1 and pieces[at - 2].role is Role.NOT
+        if pieces[at - 1].role is Role.TO and piece.norm == "be" and not denied:
+            pieces[at - 1].become(Role.FILLER)
+            piece.become(Role.FILLER)
+        elif piece.norm in ("is", "are", "be") and any(
+            p.role is Role.FILLER and p.norm.endswith(" that") for p in pieces[:at]
+        ):
+            piece.become(Role.FILLER)
+
+
+def _insert(pieces: list[Piece], at: int, words: tuple[str, ...], lexicon: Lexicon) -> bool:
+    """Put the verb of these words in its place."""
+    means = tuple(dict.fromkeys(_means(words, lexicon)))
+    if not words or not means:
+        return False
+    piece = pieces[at]
+    verb = Piece(piece.first, piece.after, Role.MENTION, norm=words[0], kind=MentionKind.ACTION, name=words[0])
+    verb.means, verb.form = means, Form.BASE
+    owner = piece if piece.is_robot else before(pieces, at)
+    by_robot = owner is not None and owner.is_robot
+    pieces.insert((at + 1 if piece.is_robot else at) if by_robot else _first_of_name(pieces, at), verb)
+    return True
+
+
+def _unsaid(pieces: list[Piece], text: str, tokens: list[Token], lexicon: Lexicon) -> list[Unread]:
+    """`bottle, table_b`, `charger. dog.`, `survivor? west half`: two names and nothing that joins them."""
+    named = [p for p in pieces if p.is_entity]
+    quiet = (Role.FILLER, Role.PUNCTUATION, Role.DETERMINER)
+    if len(named) != 2 or any(p.role not in quiet for p in pieces if not p.is_entity):
+        return []
+    verbs = _verbs_for({p.kind for p in named})
+    mover = next((p for p in named if p.is_robot), None)
+    at = next(k for k, p in enumerate(pieces) if p is (mover or named[0]))
+    if mover is named[-1]:
+        pieces.insert(pieces.index(named[0]), pieces.pop(at))
+        at = pieces.index(mover)
+    if not _insert(pieces, at, verbs, lexicon):
+        return []
+    ends = sorted((p.first, p.after) for p in named)
+    span = (tokens[ends[0][0]].start, tokens[ends[-1][1] - 1].end)
+    return [Unread(text[slice(*span)], span, " or ".join(verbs[:2]))]
+
+
+def _verbs_for(kinds: set[MentionKind | None]) -> tuple[str, ...]:
+    """The verbs that two names side by side imply."""
+    robots, goals = kinds & set(ROBOT_KINDS), kinds & {MentionKind.LOCATION, MentionKind.POINT}
+    if robots and goals:
+        return _MOVED[True]
+    if MentionKind.OBJECT in kinds and goals:
+        return _MOVED[False]
+    return (_FIND,) if kinds == {MentionKind.VALUE, MentionKind.ZONE} else ()
+
+
+def _down(pieces: list[Piece]) -> Piece | None:
+    """The last word of `drone down`."""
+    said = [p for p in pieces if p.role not in (Role.FILLER, Role.PUNCTUATION, Role.DETERMINER)]
+    return said[1] if len(said) == 2 and said[0].is_robot and said[1].norm == "down" else None
 
 
 def _place_asked_for(pieces: list[Piece]) -> Piece | None:

@@ -11,9 +11,10 @@ from crew.contracts.language.entry import Entry, Words, stands, words_of
 from crew.contracts.language.inflect import Form, inflections
 from crew.contracts.language.mention import MentionKind, StepRef
 from crew.contracts.language.naming import entities
+from crew.contracts.language.spelling import Vocabulary
 from crew.contracts.language.templates import fixed_phrases, opening_phrases
 from crew.contracts.language.tokens import Token
-from crew.contracts.language.words import FUNCTION_WORDS, ROLE_ORDER, Role
+from crew.contracts.language.words import FUNCTION_WORDS, REQUESTER, ROLE_ORDER, SILENT, SINGLE_WORDS, TURNING, Role
 from crew.contracts.plan import Zone
 from crew.contracts.site import Rules
 from crew.contracts.skill import Kind, Skill
@@ -38,12 +39,30 @@ class Lexicon(msgspec.Struct, frozen=True, kw_only=True, dict=True):
     """Contract steps that take a zone."""
     object_steps: frozenset[tuple[str, str]]
     """Contract steps of contracts that handle an object."""
+    to_requester: frozenset[str]
+    """Contracts that can bring something to the person who asks."""
+    by_hand: frozenset[str]
+    """Those of them that need the person in reach."""
+    gestures: frozenset[str]
+    """Skills without arguments."""
     ending: tuple[StepRef, ...]
     """All steps of the contracts that end what the robots are doing."""
 
     @cached_property
     def preempting(self) -> frozenset[str]:
         return frozenset(ref.contract for ref in self.ending)
+
+    @cached_property
+    def vocabulary(self) -> Vocabulary:
+        tables = (self.names, self.functions, self.special)
+        entries = [entry for table in tables for found in table.values() for entry in found]
+        single = {e.words[0]: e for e in entries if len(e.words) == 1 and e.role is not Role.MENTION}
+        return Vocabulary(
+            known=frozenset(word for e in entries for word in e.words) | SINGLE_WORDS,
+            names=frozenset(word for found in self.names.values() for e in found for word in e.words),
+            silent=frozenset(word for word, e in single.items() if e.role in SILENT),
+            turning=frozenset(word for word, e in single.items() if e.role in TURNING),
+        )
 
     def longest(self, tokens: list[Token], at: int) -> Entry | None:
         """The longest phrase that starts here; a name wins over a function word of the same length."""
@@ -80,6 +99,9 @@ def build_lexicon(rules: Rules) -> Lexicon:
         },
         zone_steps=frozenset(_steps_using(rules, "zone", own=True)),
         object_steps=frozenset(_steps_using(rules, "object", own=False)),
+        to_requester=frozenset(c.name for c in rules.contracts.values() if _hands_over(c) or _delivers(c)),
+        by_hand=frozenset(c.name for c in rules.contracts.values() if _hands_over(c)),
+        gestures=frozenset(s.name for s in _all_skills(rules.kinds.values()) if not s.params),
         ending=tuple(
             StepRef(c.name, step.name, call, True)
             for c in rules.contracts.values()
@@ -108,10 +130,12 @@ def _actions(rules: Rules) -> Iterator[Entry]:
         for phrase in fixed_phrases(contract.examples):
             words = words_of(phrase)
             refs = {r: None for known, rs in meanings.items() if known == words[: len(known)] for r in rs}
+            plain = tuple(w for w in words if w != "the")
             mine = tuple(r for r in refs if r.contract == contract.name)
             alike = (known for known, rs in meanings.items() if len(known) == 1 and set(mine) <= set(rs))
             if mine and words not in meanings:
-                yield from (_action((*verb, *words[1:]), mine, Form.BASE) for verb in alike)
+                tails = dict.fromkeys((words[1:], plain[1:]))
+                yield from (_action((*verb, *tail), mine, Form.BASE) for verb in alike for tail in tails)
         for phrase in opening_phrases(contract.examples):
             words = words_of(phrase)
             if words and not any(word in heads for heads in meanings for word in words) and words[0] not in _HARMLESS:
@@ -152,6 +176,15 @@ def _asked_refs(contract: Contract) -> Iterator[StepRef]:
     return (
         StepRef(contract.name, step.name, call, True) for step, call in _calls(contract) if step.name in contract.asks
     )
+
+
+def _hands_over(contract: Contract) -> bool:
+    needed = (c for c in contract.needs if not c.when and not c.negated)
+    return any(c.path.partition(".")[0] == REQUESTER and c.value is True for c in needed)
+
+
+def _delivers(contract: Contract) -> bool:
+    return any(REQUESTER in slot.values for slot in contract.slots)
 
 
 def _reports(rules: Rules) -> dict[str, str]:

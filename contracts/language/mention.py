@@ -72,6 +72,11 @@ class Unread(msgspec.Struct, frozen=True):
 
     word: str
     span: tuple[int, int]
+    meant: str = ""
+    """What it may be a slip of, or what was left unsaid: read so, and asked back."""
+
+    def __str__(self) -> str:
+        return f"'{self.word}' (read as '{self.meant}')" if self.meant else f"'{self.word}'"
 
 
 class Ambiguity(msgspec.Struct, frozen=True):

@@ -7,7 +7,7 @@ from msgspec.structs import replace
 from crew.contracts.language.entry import Entry, Words, words_of
 from crew.contracts.language.inflect import plurals
 from crew.contracts.language.mention import MentionKind
-from crew.contracts.language.words import REQUESTER, ROBOT_WORDS, SELF_WORDS, ZONE_NOUNS
+from crew.contracts.language.words import IN_NEED, REQUESTER, ROBOT_WORDS, SELF_WORDS, ZONE_NOUNS
 from crew.contracts.plan import SlotValue, Zone
 from crew.contracts.site import Rules
 
@@ -54,6 +54,8 @@ def _named(
     spellings = list(dict.fromkeys(words for phrase in (name, *aliases) for words in _variants(phrase)))
     heads = {words[0] for words in spellings if len(words) == 1}
     modifiers = frozenset(w for words in spellings if words[-1] in heads for w in words[:-1])
+    if near:
+        modifiers |= IN_NEED - {"there"}  # "the injured hiker"
     for words in spellings:
         yield Entry(words=words, kind=kind, name=name, values=(value,), modifiers=modifiers, near_is_at=near)
 

@@ -42,6 +42,9 @@ _NOT_HEIGHT = frozenset(
         "y",
     )
 )
+_COMPASS = ("north", "south", "east", "west")
+_BEFORE_HEIGHT = frozenset((*ZONE_NOUNS, *_COMPASS, ","))
+_NOT_AROUND = frozenset(("around", "round", "near", "by", "within", "beside", "from", "of", "about", "past", "beyond"))
 _FRAMES = frozenset((*ZONE_NOUNS, "rectangle", "box", "square", "strip", "range", "corners"))
 _FRAME_LINKS = frozenset(("with", "where", "of", "between", "from", ",", ":", "for", "bounded", "by", "at", "in"))
 _JOINTS = (",", ";", "and", "&")
@@ -191,9 +194,17 @@ def _altitude(tokens: list[Token], at: int) -> Figures | None:
         return None
     tail = next((t for t in _HEIGHT_TAILS if _stands(tokens, value.after, t)), ())
     after = value.after + len(tail)
-    if not tail and (at == start or norm_at(tokens, after) in _NOT_HEIGHT):
+    bare = at == start and not _ends_a_search(tokens, at, after)
+    if not tail and (bare or norm_at(tokens, after) in _NOT_HEIGHT):
         return None
     return _height(tokens, start, value.value, after)
+
+
+def _ends_a_search(tokens: list[Token], at: int, after: int) -> bool:
+    """`search the south half, 5 m`: behind a zone or a comma, at the end, and no distance from a thing."""
+    opened = norm_at(tokens, at - 1) in _BEFORE_HEIGHT
+    ends = norm_at(tokens, after) in ("", ".", "!", "?", "please")
+    return opened and ends and not any(t.norm in _NOT_AROUND for t in tokens[:at])
 
 
 def _height(tokens: list[Token], start: int, value: float, after: int) -> Figures:

@@ -2,6 +2,7 @@
 
 from itertools import pairwise
 
+from crew.contracts.language.inflect import Form
 from crew.contracts.language.lexicon import Lexicon
 from crew.contracts.language.mention import Direction, MentionKind
 from crew.contracts.language.piece import PLACE_ROLES, PREPOSITIONS, Piece, before, behind
@@ -192,9 +193,14 @@ def _after_verb_and_article(pieces: list[Piece]) -> None:
 
     So it is after a preposition, in `in your hand`.
     """
-    for place, owner, piece in zip(pieces, pieces[1:], pieces[2:], strict=False):
-        if place.role in PLACE_ROLES and owner.role is Role.DETERMINER and piece.is_action:
+    for at, (place, owner, piece) in enumerate(zip(pieces, pieces[1:], pieces[2:], strict=False)):
+        described = piece.form is Form.PAST and at + 3 < len(pieces) and pieces[at + 3].kind is MentionKind.VALUE
+        if place.role in PLACE_ROLES and owner.role is Role.DETERMINER and piece.is_action and not described:
             piece.become_unknown(piece.first, piece.after)
+    for at, (owner, piece) in enumerate(pairwise(pieces)):
+        mine = owner.norm in ("my", "our") or (owner.norm == "your" and before(pieces, at) is None)
+        if owner.role is Role.DETERMINER and mine and piece.is_action:
+            piece.become(Role.UNREAD)  # "my hands are full"
     for verb, article, piece in zip(pieces, pieces[1:], pieces[2:], strict=False):
         if verb.is_action and article.role is Role.DETERMINER and piece.is_action and article.norm in ("the", "a"):
             if set(verb.means) & set(piece.means):

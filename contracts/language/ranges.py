@@ -24,6 +24,9 @@ def axis_range(tokens: list[Token], at: int) -> AxisRange | None:
     found = _labelled_span(tokens, at)
     if found is not None:
         return found
+    found = _between(tokens, at)
+    if found is not None:
+        return found
     axes, after = _axes(tokens, skip(tokens, at, "for", "in", "on"))
     if axes:
         span = _span(tokens, skip(tokens, after, ":", "=", "in", "is", "range", "ranges", "axis"), opened=True)
@@ -33,6 +36,18 @@ def axis_range(tokens: list[Token], at: int) -> AxisRange | None:
         return None
     axes, after = _axes(tokens, skip(tokens, span[1] + 1, "the"))
     return AxisRange(axes, span[0], skip(tokens, after, "axis", "axes", "direction", "directions")) if axes else None
+
+
+def _between(tokens: list[Token], at: int) -> AxisRange | None:
+    """`between x -2 and 3`, and `y 1 and 6` behind such a one."""
+    opened = norm_at(tokens, at) == "between"
+    axis, low_at = _axes(tokens, at + opened)
+    chained = norm_at(tokens, at - 1) in ("and", ",") and any(t.norm == "between" for t in tokens[:at])
+    low = figure(tokens, low_at) if len(axis) == 1 and (opened or chained) else None
+    if low is None or norm_at(tokens, low.after) != "and":
+        return None
+    high = figure(tokens, low.after + 1)
+    return None if high is None else AxisRange(axis, ordered(low.value, high.value), high.after)
 
 
 def _axes(tokens: list[Token], at: int) -> tuple[str, int]:

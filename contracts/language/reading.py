@@ -1,13 +1,16 @@
 """Reads a request: deterministic, bounded, and never guessing. What it cannot read it names."""
 
 from collections.abc import Iterator
+from itertools import pairwise
 
+from crew.contracts.language.beneficiary import beneficiaries
 from crew.contracts.language.implied import implied_verbs
 from crew.contracts.language.lexicon import Lexicon
 from crew.contracts.language.mention import Ambiguity, Direction, Mention, MentionKind, Reading, Unread
 from crew.contracts.language.phrase import directions, hosts, loose_ends, noun_phrases
-from crew.contracts.language.piece import Piece, before, behind
+from crew.contracts.language.piece import SOFT, Piece, before, behind
 from crew.contracts.language.reference import governors, orders, participles, place_pronouns, pronouns
+from crew.contracts.language.respell import respell
 from crew.contracts.language.scan import Scanner
 from crew.contracts.language.scope import contradictions, polarities
 from crew.contracts.language.tokens import Token, tokenize
@@ -25,8 +28,11 @@ def read_request(text: str, lexicon: Lexicon) -> Reading:
     if len(tokens) > MAX_TOKENS:
         why = f"{len(tokens)} words and marks; at most {MAX_TOKENS} are read"
         return _too_long(text, tokens[MAX_TOKENS].start, why)
+    tokens, slips, turns = respell(text, tokens, lexicon)
     pieces = noun_phrases(Scanner(tokens, lexicon).scan())
-    implied_verbs(pieces, lexicon)
+    unsaid = implied_verbs(pieces, text, tokens, lexicon)
+    beneficiaries(pieces, tokens, lexicon)
+    _all_stop(pieces, lexicon)
     loose_ends(pieces, lexicon)
     _everything(pieces, lexicon)
     _first(pieces)
@@ -34,13 +40,13 @@ def read_request(text: str, lexicon: Lexicon) -> Reading:
     place_pronouns(pieces)
     hosts(pieces, lexicon)
     directions(pieces, tokens)
-    doubts = polarities(pieces, tokens)
+    doubts = turns + polarities(pieces, tokens)
     if any(p.role is Role.PRONOUN for p in pieces):
         doubts += pronouns(pieces, tokens, lexicon)
         directions(pieces, tokens)
     doubts += contradictions(pieces, tokens)
     governors(pieces)
-    return _assemble(text, tokens, pieces, doubts)
+    return _assemble(text, tokens, pieces, doubts, [*slips, *unsaid])
 
 
 def _too_long(text: str, end: int, why: str) -> Reading:
@@ -57,7 +63,8 @@ def _everything(pieces: list[Piece], lexicon: Lexicon) -> None:
         whole = piece.is_robot and piece.every and set(piece.values) == set(lexicon.robots)
         if piece.role is not Role.EVERYTHING and not whole:
             continue
-        ending = [p for p in (before(pieces, at), behind(pieces, at)) if p is not None and p.is_action]
+        called = SOFT | {Role.PUNCTUATION}  # "everybody, stop"
+        ending = [p for p in (before(pieces, at), behind(pieces, at, called)) if p is not None and p.is_action]
         sweeps = (p for p in (before(pieces, at),) if p is not None and p.is_action)
         if any((r.contract, r.step) in lexicon.zone_steps for verb in sweeps for r in verb.means):
             piece.become(Role.FILLER)  # "scan everything": the whole area, which is the default
@@ -70,6 +77,14 @@ def _everything(pieces: list[Piece], lexicon: Lexicon) -> None:
             piece.become(Role.UNREAD)
 
 
+def _all_stop(pieces: list[Piece], lexicon: Lexicon) -> None:
+    """`all stop` is said to everything."""
+    for all_, verb in pairwise(pieces):
+        ends = verb.is_action and any(r.contract in lexicon.preempting for r in verb.means)
+        if ends and all_.role is Role.QUANTIFIER and all_.norm == "all":
+            all_.become(Role.EVERYTHING)
+
+
 def _first(pieces: list[Piece]) -> None:
     """`first` says nothing in front of the first verb; elsewhere it would change the order."""
     acted = False
@@ -79,14 +94,16 @@ def _first(pieces: list[Piece]) -> None:
             piece.become(Role.UNREAD)
 
 
-def _assemble(text: str, tokens: list[Token], pieces: list[Piece], doubts: list[Ambiguity]) -> Reading:
+def _assemble(
+    text: str, tokens: list[Token], pieces: list[Piece], doubts: list[Ambiguity], asked: list[Unread]
+) -> Reading:
     named = [p for p in pieces if p.kind is not None]
     index = {id(p): k for k, p in enumerate(named)}
     pairs = ((index[id(a)], index[id(b)]) for a, b in orders(pieces))
     return Reading(
         text=text,
         mentions=tuple(_mention(text, tokens, p, index) for p in named),
-        unread=tuple(_unread(text, tokens, pieces)),
+        unread=tuple(_asked(text, tokens, pieces, asked)),
         ambiguous=tuple(sorted(doubts, key=lambda d: d.span)),
         orders=tuple(dict.fromkeys(pairs)),
     )
@@ -111,6 +128,12 @@ def _mention(text: str, tokens: list[Token], piece: Piece, index: dict[int, int]
     )
 
 
+def _asked(text: str, tokens: list[Token], pieces: list[Piece], asked: list[Unread]) -> list[Unread]:
+    """What was not read, and what was read otherwise than it stands, in the order of the text."""
+    unread = [u for u in _unread(text, tokens, pieces) if u.span not in {a.span for a in asked}]
+    return sorted([*unread, *asked], key=lambda u: u.span)
+
+
 def _unread(text: str, tokens: list[Token], pieces: list[Piece]) -> Iterator[Unread]:
     for piece in pieces:
         excluded_unknown = piece.kind is MentionKind.UNKNOWN and not piece.positive
@@ -133,7 +156,7 @@ def explain_reading(reading: Reading) -> str:
     if reading.ambiguous:
         parts.append("unclear: " + ", ".join(a.why for a in reading.ambiguous))
     if reading.unread:
-        parts.append("not understood: " + ", ".join(f"'{u.word}'" for u in reading.unread))
+        parts.append("not understood: " + ", ".join(map(str, reading.unread)))
     return "; ".join(parts) or "nothing was asked for"
 
 

@@ -107,7 +107,7 @@ def participles(pieces: list[Piece]) -> None:
             if _found(pieces, at):
                 piece.become(Role.FILLER)
                 continue
-            if passive or _in_time_clause(pieces, at) or _wanted_done(pieces, at):
+            if passive or _courteous(pieces, at) or _in_time_clause(pieces, at) or _wanted_done(pieces, at):
                 if auxiliary is not None:
                     auxiliary.become(Role.FILLER)
             else:
@@ -126,11 +126,29 @@ def _found(pieces: list[Piece], at: int) -> bool:
     return determined and named is not None and named.kind is MentionKind.VALUE
 
 
+def _courteous(pieces: list[Piece], at: int) -> bool:
+    """`would it be all right if you brought me the bottle`."""
+    for piece in reversed(pieces[:at]):
+        if piece.role is Role.FILLER and piece.norm.endswith((" if", " if you")):
+            return True
+        if not (piece.role in SOFT or piece.is_robot):
+            return False
+    return False
+
+
 def _wanted_done(pieces: list[Piece], at: int) -> bool:
     """`I want the area searched`."""
     if at == 0 or not pieces[at - 1].is_entity:
         return False
     verb = before(pieces, at - 1, frozenset((Role.DETERMINER, Role.QUANTIFIER)))
+    if (
+        verb is not None
+        and verb.norm in ("have", "get")
+        and verb.is_action
+        and before(pieces, pieces.index(verb)) is None
+    ):
+        verb.become(Role.FILLER)  # "have the cube brought to me"
+        return True
     return verb is not None and (verb.role is Role.FILLER or verb.is_action) and verb.norm.endswith(_WISHES)
 
 

@@ -1,14 +1,19 @@
 """From tokens to pieces: figures first, then the longest known phrase, with the few idioms that need a look ahead."""
 
-from crew.contracts.language.entry import Entry, stands
+from crew.contracts.language.asides import Asides
+from crew.contracts.language.entry import Entry, stands, stands_all
 from crew.contracts.language.figures import is_numeral
-from crew.contracts.language.lexicon import Lexicon, match
+from crew.contracts.language.frames import BEFORE_A_MARK
+from crew.contracts.language.inflect import Form
+from crew.contracts.language.lexicon import Lexicon
+from crew.contracts.language.lookahead import ARTICLES
 from crew.contracts.language.mention import ROBOT_KINDS, MentionKind
 from crew.contracts.language.numbers import Figures, read_figures
 from crew.contracts.language.piece import Piece, of_entry
 from crew.contracts.language.tokens import Shape, Token
 from crew.contracts.language.words import (
     ADVERBS,
+    BEFALLEN,
     IN_NEED,
     LEFT_ALONE,
     NOTHING_SAID,
@@ -18,7 +23,6 @@ from crew.contracts.language.words import (
     Role,
 )
 
-_ARTICLES = frozenset(("the", "a", "an", "all", "both", "your", "our", "my", "any"))
 _LIGHT_LINKS = ("and", "to", "by", "with")
 _NOT_BEFORE_VERB = frozenset(("to", "from", "at", "in", "the", "into", "of"))
 _SEPARABLE = PARTICLES | {"is"}
@@ -29,13 +33,11 @@ _MARKS = {
 }  # fmt: skip
 
 
-class Scanner:
+class Scanner(Asides):
     """One pass over the tokens of one request."""
 
     def __init__(self, tokens: list[Token], lexicon: Lexicon) -> None:
-        self.tokens = tokens
-        self.lexicon = lexicon
-        self.pieces: list[Piece] = []
+        super().__init__(tokens, lexicon)
         self.taken: set[int] = set()
         """Particles that an earlier verb has taken."""
         self.ends: set[int] = set()
@@ -63,7 +65,12 @@ class Scanner:
         return self._idiom(at) or self._phrase(at) or self._loose(at)
 
     def _idiom(self, at: int) -> Piece | None:
-        return self._light(at) or self._cause(at) or self._separable(at) or self._leave(at) or self._bare_go(at)
+        for read in (
+            self.aside, self._light, self._cause, self._separable, self._leave, self._bare_go,
+        ):  # fmt: skip
+            if (piece := read(at)) is not None:
+                return piece
+        return None
 
     def _light(self, at: int) -> Piece | None:
         """`start searching`, `do a search`, `go and find`: the verb that follows is the one that is meant."""
@@ -85,11 +92,14 @@ class Scanner:
         if entry is None and not sending:
             return None
         start = at + (1 if entry is None else len(entry.words))
-        robot_at = self._past(start, tuple(_ARTICLES))
+        robot_at = self._past(start, tuple(ARTICLES))
         robot = self._name(robot_at)
-        if robot is None or robot.kind not in ROBOT_KINDS:
+        called = robot is not None and robot.kind in ROBOT_KINDS
+        end = robot_at + len(robot.words) if robot is not None and called else robot_at
+        if not called and entry is not None:
+            end = self._past(start, ("it", "him", "her", "them"))  # "have it scan the area"
+        if end == robot_at:
             return None
-        end = robot_at + len(robot.words)
         verb = self._past(self._past(end, ("out", "up", "off", "over")), ("to",))
         marked = verb > end and self.tokens[verb - 1].norm == "to"
         action = self._action(self._past(verb, ("go", "and", "then")) if marked else verb)
@@ -101,20 +111,31 @@ class Scanner:
         self.taken.update(range(end, verb))
         return Piece(at, start, Role.FILLER)
 
-    def _name_is_place(self, at: int) -> bool:
-        """A place may be called like a verb; then `send the rover to ...` names the place."""
-        entry = match(self.lexicon.names, self.tokens, at)
-        return entry is not None and entry.kind is not MentionKind.ACTION
-
     def _separable(self, at: int) -> Piece | None:
         """`bring the drone down`, `where the victim is`."""
         for entry in self.lexicon.names.get(self.tokens[at].norm, ()):
             if entry.kind is MentionKind.ACTION and len(entry.words) == 2 and entry.words[1] in _SEPARABLE:
-                end = self._past_name(at + 1)
-                if at + 1 < end < len(self.tokens) and self.tokens[end].norm == entry.words[1]:
-                    self.taken.add(end)
+                end = self._past_named(at + 1)
+                moved = end < len(self.tokens) and self._is_link(end)
+                if end > at + 1 and not moved and (after := self._particle(end, entry.words[1])) > end:
+                    self.taken.update(range(end, after))
                     return of_entry(entry, at, at + 1, False)
         return None
+
+    def _is_link(self, at: int) -> bool:
+        """`over to`, `back to`: a preposition, not the second half of a verb."""
+        entry = self.lexicon.longest(self.tokens, at)
+        return entry is not None and entry.role is Role.TO and len(entry.words) > 1
+
+    def _particle(self, at: int, particle: str) -> int:
+        """Past `down`, `back down to the ground`, `on the ground`; `at` if it does not stand here."""
+        start = self._past(at, ("back",)) if particle == "down" else at
+        after = self._past(start, (particle,))
+        if particle != "down":
+            return after
+        ground = [t.norm for t in self.tokens[after : after + 3]] in (["on", "the", "ground"], ["to", "the", "ground"])
+        grounded = ground and self._name(after + 2) is None
+        return after + 3 if grounded else after if after > start else at
 
     def _leave(self, at: int) -> Piece | None:
         """`leave the rover where it is`, `keep the drone still`: what is named is left out, like after `except`."""
@@ -135,21 +156,6 @@ class Scanner:
         alone = self.tokens[at].norm == "go" and self._clause_begins(at) and self._clause_ends(at + 1)
         return Piece(at, at + 1, Role.FILLER) if alone else None
 
-    def _clause_begins(self, at: int) -> bool:
-        return all(p.role in (Role.FILLER, Role.PUNCTUATION) for p in self.pieces[-1:])
-
-    def _clause_ends(self, at: int) -> bool:
-        if at >= len(self.tokens) or self.tokens[at].shape is Shape.MARK:
-            return True
-        entry = match(self.lexicon.functions, self.tokens, at)
-        return entry is not None and entry.role in (Role.AND, Role.THEN, Role.BREAK, Role.FILLER)
-
-    def _past_name(self, at: int) -> int:
-        """Past one name and its articles, or `at` if no name stands here."""
-        start = self._past(at, tuple(_ARTICLES))
-        entry = self._name(start)
-        return at if entry is None or entry.kind is MentionKind.ACTION else start + len(entry.words)
-
     def _phrase(self, at: int) -> Piece | None:
         entry = self._longest(at)
         if (opener := self._opener(at)) is not None and (entry is None or len(opener.words) >= len(entry.words)):
@@ -157,13 +163,42 @@ class Scanner:
         if entry is None:
             return None
         end = at + len(entry.words)
+        if entry.role is Role.FILLER and entry.words[-1] == "that" and self._pointed_at(end):
+            return self._shorter(at, end - 1)
         if entry.role is Role.FILLER and end - at > 1 and self._action(end - 1) is not None:
             return Piece(at, end - 1, Role.FILLER)  # `i need`, where `need` is an action of this crew
         if entry.role is Role.MODAL and end < len(self.tokens) and self.tokens[end].norm in ("i", "we"):
             return Piece(at, end, Role.UNREAD)  # "should I search": a question, no request
+        if entry.role is Role.DETERMINER and entry.name in ("that", "this") and self._stands_alone(end):
+            return Piece(at, end, Role.PRONOUN, norm="it")
         if entry.role is Role.WHOEVER:
             return self._whoever(at, end)
         return of_entry(entry, at, end, self.tokens[end - 1].possessive)
+
+    def _stands_alone(self, at: int) -> bool:
+        """Whether `that` before this place is a pronoun: `put that on the table`."""
+        if at >= len(self.tokens):
+            return True
+        entry = self.lexicon.longest(self.tokens, at)
+        linked = entry is not None and entry.role in (Role.TO, Role.AT, Role.FROM, Role.AND, Role.THEN, Role.BREAK)
+        return linked or self.tokens[at].shape is Shape.MARK
+
+    def _shorter(self, at: int, end: int) -> Piece:
+        """A frame without its last word; its verb is left for itself if this crew has it."""
+        return Piece(at, end - 1 if end - at > 1 and self._action(end - 1) is not None else end, Role.FILLER)
+
+    def _counts(self, at: int) -> bool:
+        """Whether `one` before this place is an article."""
+        name = self._name(at)
+        return name is not None and not name.plural and name.kind in (*ROBOT_KINDS, MentionKind.OBJECT)
+
+    def _pointed_at(self, at: int) -> bool:
+        """Whether `that` before this place points at a thing (`I need that bottle`) and opens no clause."""
+        name = self._name(at)
+        if name is None or name.kind is MentionKind.ACTION or self._action(at) is not None:
+            return False
+        verb = self._action(at + len(name.words))
+        return verb is None or verb.form is Form.PAST
 
     def _opener(self, at: int) -> Entry | None:
         """`um`, `right`, `yeah`: nothing is said by them where a clause begins and no name or verb stands in them."""
@@ -172,7 +207,8 @@ class Scanner:
             return None
         after = at + len(entry.words)
         modifies = self._name(after) is not None and self._action(after) is None and len(entry.words) == 1
-        return None if modifies and entry.name in _MODIFIERS else entry
+        verb = entry.name in BEFORE_A_MARK and not (after == len(self.tokens) or self.tokens[after].shape is Shape.MARK)
+        return None if verb or (modifies and entry.name in _MODIFIERS) else entry
 
     def _longest(self, at: int) -> Entry | None:
         entry = self.lexicon.longest(self.tokens, at)
@@ -204,23 +240,15 @@ class Scanner:
                 break
         if self._negated():
             return Piece(at, end, Role.FILLER)  # "don't send anyone"
-        if end + 1 < len(self.tokens) and self.tokens[end].norm == "is" and self.tokens[end + 1].norm in IN_NEED:
+        said = next((t for t in BEFALLEN if stands_all(self.tokens, end, t)), None)
+        need = end + len(said or ())
+        if said is not None and need < len(self.tokens) and self.tokens[need].norm in IN_NEED:
             known = set(self.lexicon.reports.values())
-            away = self._past(self._past(end + 2, ("out",)), ("there",))
-            return _value(at, away, known.pop()) if len(known) == 1 else Piece(at, end + 2, Role.UNREAD)
+            away = self._past(self._past(need + 1, ("out",)), ("there",))
+            return _value(at, away, known.pop()) if len(known) == 1 else Piece(at, need + 1, Role.UNREAD)
         last = next((p for p in reversed(self.pieces) if p.role not in (Role.FOR, Role.FILLER)), None)
         value = self._reported(last.means) if last is not None and last.is_action else None
         return Piece(at, end, Role.UNREAD) if value is None else _value(at, end, value)
-
-    def _negated(self) -> bool:
-        bounds = (p.role for p in reversed(self.pieces) if p.role in (Role.NOT, Role.PUNCTUATION, Role.BREAK))
-        return next(bounds, None) is Role.NOT
-
-    def _connective(self, at: int) -> bool:
-        if self.tokens[at].shape is Shape.MARK:
-            return True
-        entry = match(self.lexicon.functions, self.tokens, at)
-        return entry is not None and entry.role not in (Role.FILLER, Role.PRONOUN, Role.DETERMINER)
 
     def _reported(self, means: tuple[object, ...]) -> str | None:
         found = {self.lexicon.reports.get(getattr(ref, "skill", "")) for ref in means} - {None}
@@ -230,46 +258,17 @@ class Scanner:
         token = self.tokens[at]
         if token.norm == "out" and self.pieces and self.pieces[-1].is_action:
             return Piece(at, at + 1, Role.FILLER)  # "find out", "check out"
-        name = self._name(self._past(at + 1, tuple(_ARTICLES)))
+        name = self._name(self._past(at + 1, tuple(ARTICLES)))
         if token.norm == "off" and name is not None and name.kind is MentionKind.LOCATION:
             return Piece(at, at + 1, Role.FROM, norm=token.norm)  # "take the cube off the table"
+        if token.norm in ("one", "1") and self._counts(at + 1):
+            return Piece(at, at + 1, Role.DETERMINER, norm="a")
         if token.norm in ("he", "she", "it") and self.pieces and self.pieces[-1].is_robot:
             return Piece(at, at + 1, Role.FILLER)  # "the dog he must go"
         if token.norm in NOTHING_SAID and self._negated():
             return Piece(at, at + 1, Role.FILLER)  # "do not drive anywhere"
         unread = is_numeral(self.tokens, at) or token.norm in _NEVER_NAMES or token.norm.endswith("ly")
         return Piece(at, at + 1, Role.UNREAD if unread else Role.WORD, norm=token.norm, possessive=token.possessive)
-
-    def _special(self, role: Role, at: int) -> Entry | None:
-        """A function word of a role that holds only before a fitting word."""
-        for entry in self.lexicon.special.get(self.tokens[at].norm, ()) if at < len(self.tokens) else ():
-            if entry.role is role and stands(self.tokens, at, entry.words):
-                return entry
-        return None
-
-    def _name(self, at: int) -> Entry | None:
-        return match(self.lexicon.names, self.tokens, at) if at < len(self.tokens) else None
-
-    def _action(self, at: int, shorter_than: int = 99) -> Entry | None:
-        """The longest action phrase that starts here, up to a number of words."""
-        if at >= len(self.tokens):
-            return None
-        for entry in self.lexicon.names.get(self.tokens[at].norm, ()):
-            fits = entry.kind is MentionKind.ACTION and len(entry.words) <= shorter_than
-            if fits and stands(self.tokens, at, entry.words):
-                return entry
-        return None
-
-    def _past(self, at: int, words: tuple[str, ...]) -> int:
-        """The next position, past one of the words if it stands here."""
-        return at + 1 if at < len(self.tokens) and self.tokens[at].norm in words else at
-
-    def _action_takes_zone(self, at: int) -> bool:
-        for back in range(at - 1, -1, -1):
-            entry = self._action(back)
-            if entry is not None:
-                return any((ref.contract, ref.step) in self.lexicon.zone_steps for ref in entry.means)
-        return False
 
 
 _MODIFIERS = frozenset(("right", "like", "fine", "good", "great", "cool", "perfect", "quick"))

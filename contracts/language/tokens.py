@@ -35,7 +35,10 @@ _PLAIN = re.compile(r"[a-z0-9]+(?:'[a-z]+)*\Z")
 _DECIMAL = re.compile(r"(?:[0-9]{1,6}(?:\.[0-9]{1,9})?|\.[0-9]{1,9})\Z")
 _MARK_FORMS = str.maketrans({"\u2013": "-", "\u2014": "-", "\u2212": "-", "\n": "."})
 _DROPPED = frozenset("'\"\u2018\u2019\u201c\u201d`")
-_CONTRACTIONS = {"where's": "where is"}
+_CONTRACTIONS = {
+    "where's": "where is", "wanna": "want to", "gonna": "going to", "gotta": "have to", "gimme": "give me",
+    "lemme": "let me",
+}  # fmt: skip
 _KEPT = frozenset(("let's", "it's", "that's", "there's", "he's", "she's", "who's", "what's"))
 
 
@@ -68,7 +71,7 @@ def _add_word(tokens: list[Token], raw: str, start: int, end: int) -> None:
         tokens.append(Token(norm, start, end, Shape.ODD))
     elif norm in _CONTRACTIONS:
         first, second = _CONTRACTIONS[norm].split()
-        cut = start + len(first)
+        cut = start + min(len(first), len(norm) - 1)
         tokens.extend((Token(first, start, cut, Shape.WORD), Token(second, cut, end, Shape.WORD)))
     elif norm.endswith("'s") and norm not in _KEPT:
         tokens.append(Token(norm[:-2], start, end, Shape.WORD, possessive=True))

@@ -2,6 +2,8 @@
 
 from enum import StrEnum
 
+from crew.contracts.language.frames import FRAMES, OPENINGS, PRESENTED, TAGS, WHEREABOUTS, phrases
+
 
 class Role(StrEnum):
     """What a word or phrase does in a request, when it names nothing by itself."""
@@ -9,6 +11,12 @@ class Role(StrEnum):
     FILLER = "filler"
     OPENER = "opener"
     """A filler at the beginning of a clause, or all of it; anywhere else it may change what is meant."""
+    CLOSER = "closer"
+    """A filler at the end of a sentence."""
+    PRESENTED = "presented"
+    """A filler before the person to be found: `we have a`."""
+    WHEREABOUTS = "whereabouts"
+    """A filler behind that person: `last seen`."""
     MODAL = "modal"
     BE = "be"
     CAUSE = "cause"
@@ -80,7 +88,7 @@ FUNCTION_WORDS: dict[Role, tuple[str, ...]] = {
         "whatever you are doing", "whatever happens", "whatever you do", "you know", "as i said", "yes please",
         "would you mind please", "could we", "can we", "can we please", "could we please", "may we", "will you please",
         "your turn", "the plan is to", "the idea is to", "all i want is", "all i need is", "what i want is",
-        "what i need is", "you should", "you must", "you will", "you shall",
+        "what i need is", "you should", "you must", "you will", "you shall", *phrases(FRAMES),
     ),
     Role.OPENER: (
         "um", "uh", "uhm", "er", "erm", "hmm", "hm", "mm", "ah", "oh", "eh", "yeah", "yes", "yep", "yup", "yea",
@@ -88,9 +96,11 @@ FUNCTION_WORDS: dict[Role, tuple[str, ...]] = {
         "pardon me", "basically", "like", "well then", "fine", "good", "great", "perfect", "cool", "alright then",
         "team", "folks", "guys", "everyone", "buddy", "mate", "friend", "friends", "my friend", "crew", "attention",
         "anyway", "now then", "and now", "yo", "hurry", "hurry up", "quick question", "question",
-        "that's enough", "that is enough", "enough", "will you", "if you will",
+        "that's enough", "that is enough", "enough", "will you", "if you will", *phrases(OPENINGS),
     ),
-
+    Role.CLOSER: tuple(phrases(TAGS)),
+    Role.PRESENTED: tuple(phrases(PRESENTED)),
+    Role.WHEREABOUTS: tuple(phrases(WHEREABOUTS)),
     Role.MODAL: ("should", "shall", "must", "can", "could", "would", "ought"),
     Role.BE: ("be", "been", "were", "is", "are", "has", "have", "has been", "have been", "get", "gets"),
     Role.CAUSE: ("have", "get", "let", "ask", "tell", "order", "command", "instruct", "make", "use", "want", "need"),
@@ -115,6 +125,8 @@ FUNCTION_WORDS: dict[Role, tuple[str, ...]] = {
         "not", "never", "don't", "dont", "do not", "doesn't", "does not", "didn't", "mustn't", "shouldn't", "can't",
         "cannot", "can not", "won't", "wouldn't", "couldn't", "isn't", "aren't", "needn't", "shan't", "without",
         "neither", "nor", "nothing", "nobody", "none", "no one", "no need to", "do n't", "refrain from", "hardly",
+        "did not", "doesnt", "didnt", "cant", "wont", "isnt", "arent", "shouldnt", "mustnt", "wouldnt", "couldnt",
+        "neednt", "nowhere",
     ),
     Role.NO: ("no",),
     Role.EXCEPT: (
@@ -150,14 +162,21 @@ FUNCTION_WORDS: dict[Role, tuple[str, ...]] = {
 }  # fmt: skip
 """Phrases by role. A phrase may stand under several roles (`have`, `do`): the reader picks by what follows."""
 
-ROLE_ORDER: tuple[Role, ...] = (Role.LIGHT, Role.CAUSE, Role.BE, Role.OPENER)
+ROLE_ORDER: tuple[Role, ...] = (
+    Role.LIGHT, Role.CAUSE, Role.BE, Role.OPENER, Role.CLOSER, Role.PRESENTED, Role.WHEREABOUTS,
+)  # fmt: skip
 """Roles that hold only before a fitting word; tried in this order before the plain roles."""
+
+SILENT = frozenset((Role.FILLER, Role.OPENER, Role.DETERMINER, Role.AND, Role.MODAL))
+"""Roles of words whose slips change nothing."""
+TURNING = frozenset((Role.NOT, Role.NO, Role.EXCEPT, Role.AVOID, Role.CONDITION, Role.ALTERNATIVE, Role.CORRECTION))
+"""Roles of words that turn a request round."""
 
 REQUESTER = "requester"
 """The run-time value that the speaker's own words name."""
 SELF_WORDS: tuple[str, ...] = ("me", "here", "over here", "right here", "myself", "us")
 
-ROBOT_WORDS: tuple[str, ...] = ("robot", "vehicle", "machine")
+ROBOT_WORDS: tuple[str, ...] = ("robot", "vehicle", "machine", "unit")
 """Class words that every crew has: any of its robots."""
 
 
@@ -185,6 +204,11 @@ LEFT_ALONE: tuple[tuple[str, ...], ...] = tuple(
 """What follows a name in `leave the cube where it is`, `keep the rover still`: the thing is to be left out."""
 IN_NEED: frozenset[str] = _set("hurt injured lost missing wounded stranded trapped there")
 """What `whoever is ...` may say of the person that is to be found."""
+BEFALLEN: tuple[tuple[str, ...], ...] = tuple(
+    tuple(said.split())
+    for said in ("is", "has got", "got", "has gone", "has been", "has gotten", "went", "is out there")
+)
+"""What stands between `someone` and that need."""
 NOTHING_SAID: frozenset[str] = _set("anywhere anything whatsoever else ever")
 """Words that add nothing inside a negation."""
 
@@ -222,3 +246,8 @@ DIGIT_WORDS: dict[str, int] = {word: value for value, word in enumerate(_SMALL.s
 TENS_WORDS: dict[str, int] = {
     "twenty": 20, "thirty": 30, "forty": 40, "fifty": 50, "sixty": 60, "seventy": 70, "eighty": 80, "ninety": 90,
 }  # fmt: skip
+
+SINGLE_WORDS: frozenset[str] = frozenset(
+    (*ADVERBS, *ZONE_NOUNS, *IN_NEED, *NOTHING_SAID, *PLACE_NOUNS, *METRES, *OTHER_UNITS, *DIGIT_WORDS, *TENS_WORDS)
+) | _set("he she who what where which why how that was were been did does seen altitude height axis axes x y")
+"""Words that other parts of the reader know: none of them is a slip of another."""

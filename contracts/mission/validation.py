@@ -99,6 +99,9 @@ def _at(refusal: Refusal, index: int) -> Refusal:
 def _question(mission: MissionState, plan: Plan, instance: Instance) -> Question:
     unread = tuple(u.word for u in mission.reading.unread)
     calls = "; ".join(str(s.call) for s in instance.steps)
-    text = f"I did not understand {', '.join(repr(w) for w in unread)} and would leave it out. I would do: {calls}."
+    lost = ", ".join(repr(u.word) for u in mission.reading.unread if not u.meant)
+    read = "".join(f"I read {u.word!r} as '{u.meant}'. " for u in mission.reading.unread if u.meant)
+    left = f"I did not understand {lost} and would leave it out. " if lost else ""
+    text = f"{read}{left}I would do: {calls}."
     token = digest((mission.id, mission.reading, plan))[:16]
     return Question(text=f"{text} Shall I?", token=token, unread=unread)

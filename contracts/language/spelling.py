@@ -1,0 +1,62 @@
+"""Slips of the keyboard. What is recognised is asked back, unless it is a word that says nothing by itself.
+
+Only letters that were swapped, left out, or struck twice count: one letter for another makes another word (`tube`,
+`cube`). The first letter holds, unless it was swapped.
+"""
+
+from collections.abc import Collection, Iterable
+from typing import NamedTuple
+
+
+class Vocabulary(NamedTuple):
+    """The single words of one lexicon, by what a slip of one of them would cost."""
+
+    known: frozenset[str]
+    """Never a slip."""
+    names: frozenset[str]
+    """Names and verbs: recognised, and asked back."""
+    silent: frozenset[str]
+    """Words that say nothing by themselves."""
+    turning: frozenset[str]
+    """Words that turn a request round: negations, conditions, corrections."""
+
+
+SHORTEST = 4
+"""Letters of the shortest name or verb that is recognised."""
+
+
+def slips(word: str, meant: str) -> bool:
+    """Whether a word is another one with two letters swapped, one left out, or some struck twice."""
+    return word != meant and (_swapped(word, meant) or _left_out(word, meant) or _stretched(word, meant))
+
+
+def recognised(word: str, known: Iterable[str], shortest: int = SHORTEST) -> str | None:
+    """The one known word that was meant; None if there is none, or more than one."""
+    found = {other for other in known if len(other) >= shortest and slips(word, other)} if len(word) > 2 else set()
+    return found.pop() if len(found) == 1 else None
+
+
+def near_any(word: str, words: Collection[str]) -> str | None:
+    """A word of the collection that this one could be a slip of."""
+    return next((w for w in sorted(words) if len(word) > 1 and slips(word, w)), None)
+
+
+def _swapped(word: str, meant: str) -> bool:
+    if len(word) != len(meant):
+        return False
+    odd = [k for k, (a, b) in enumerate(zip(word, meant, strict=True)) if a != b]
+    return len(odd) == 2 and odd[1] == odd[0] + 1 and word[odd[0]] == meant[odd[1]] and word[odd[1]] == meant[odd[0]]
+
+
+def _left_out(word: str, meant: str) -> bool:
+    if len(word) + 1 != len(meant) or word[:1] != meant[:1]:
+        return False
+    return any(meant[:k] + meant[k + 1 :] == word for k in range(1, len(meant)))
+
+
+def _stretched(word: str, meant: str) -> bool:
+    return len(word) > len(meant) and _runs(word) == _runs(meant)
+
+
+def _runs(word: str) -> str:
+    return "".join(letter for k, letter in enumerate(word) if k == 0 or letter != word[k - 1])
