@@ -16,6 +16,7 @@ def beneficiaries(pieces: list[Piece], tokens: list[Token], lexicon: Lexicon) ->
 
     `put it on the table for me`, `find her for us`, `wave to the operator`, `tell me where`; not `fetch it for me`.
     """
+    _addressed(pieces, tokens)
     for at, link in enumerate(pieces):
         person = next((p for p in pieces[at + 1 : at + 3] if p.role is not Role.DETERMINER), link)
         named = person.is_entity and person.name == REQUESTER
@@ -30,6 +31,18 @@ def beneficiaries(pieces: list[Piece], tokens: list[Token], lexicon: Lexicon) ->
             link.become(Role.FILLER)
         if thanked or greeted or told:
             person.become(Role.FILLER)
+
+
+def _addressed(pieces: list[Piece], tokens: list[Token]) -> None:
+    """`me, I need ...`, `here, take ...`: the person is no goal before anything was asked for."""
+    for at, piece in enumerate(pieces):
+        if piece.is_action:
+            return
+        opens = before(pieces, at, _SOFT | {Role.PUNCTUATION}) is None
+        closed = at + 1 < len(pieces) and pieces[at + 1].role is Role.PUNCTUATION
+        if piece.is_entity and piece.name == REQUESTER and opens and closed:
+            topic = at + 2 < len(pieces) and tokens[pieces[at + 2].first].norm in ("i", "we")
+            piece.become(Role.FILLER if topic else Role.UNREAD)
 
 
 def _receives(pieces: list[Piece], at: int, verb: Piece, lexicon: Lexicon) -> bool:

@@ -23,6 +23,8 @@ FRAMES: tuple[str, ...] = (
     "(i'm|i am|we're|we are) (needing|wanting)",
     "make (|it |sure |so |it so )that",
     "(it is|it's) (|very |really )(needed|necessary|required|important|essential|imperative) (to|that|for you to)",
+    "(it would be|that would be|it is) (|very |most |so )(kind|nice|good|helpful) of you (to|if you could)",
+    "(may|might|could|can) (i|we) ask (|you )for (a|an|the)",
     "do you (think|suppose|reckon) you (could|can|might|would)",
     "would you (care|be willing|be so kind as|be good enough) to",
     "(you know what|i tell you what|tell you what|the thing is|long story short|to be honest|if i may)",

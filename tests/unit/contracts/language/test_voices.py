@@ -1,4 +1,4 @@
-"""Requests in many people's wording: hardly any is refused needlessly, and none is taken for another."""
+"""Requests in many people's wording: none is taken for another, and not many are refused needlessly."""
 
 import pytest
 
@@ -6,30 +6,48 @@ from crew.contracts.site import Rules
 from crew.library import load_rules
 from tests.unit.contracts.language.corpus import Request, corpus, judge, mistake
 
-PARTS = ("tuned", "held", "last")
+FILES = {
+    "requests_voices.yaml": ("tuned", "held", "last"),
+    "requests_people.yaml": ("read", "unread"),
+}
 CREWS = {"air": "air_ground", "indoor": "humanoid_quadruped"}
-NEEDLESS = 0.15
-"""The share of requests that could be carried out and are refused; one that is asked back counts half."""
+NEEDLESS = {"requests_voices.yaml": 0.06, "requests_people.yaml": 0.31}
+"""The share of requests that could be carried out and are refused; one that is asked back counts half.
+
+In the second file every tenth request is mistyped, and as many name two things without a verb: those are asked back.
+"""
 
 
-def requests(crew: str) -> list[Request]:
-    return [request for part in PARTS for request in corpus(f"{crew}_{part}", "requests_voices.yaml")]
+def requests(file: str, crew: str) -> list[Request]:
+    return [request for part in FILES[file] for request in corpus(f"{crew}_{part}", file)]
 
 
 @pytest.fixture(scope="module", params=list(CREWS))
-def crew(request: pytest.FixtureRequest) -> tuple[Rules, list[Request]]:
-    return load_rules(CREWS[request.param]), requests(request.param)
+def crew(request: pytest.FixtureRequest) -> tuple[str, Rules]:
+    return request.param, load_rules(CREWS[request.param])
 
 
-def test_no_request_is_taken_for_another(crew: tuple[Rules, list[Request]]) -> None:
-    rules, asked = crew
-    taken = [(r.text, judge(r.text, rules, r.state)) for r in asked if mistake(r, rules)]
+@pytest.mark.parametrize("file", list(FILES))
+def test_no_request_is_taken_for_another(file: str, crew: tuple[str, Rules]) -> None:
+    name, rules = crew
+    taken = [(r.text, judge(r.text, rules, r.state)) for r in requests(file, name) if mistake(r, rules)]
     assert [(text, found.plan) for text, found in taken if found.outcome == "accepted"] == []
 
 
-def test_few_requests_are_refused_needlessly(crew: tuple[Rules, list[Request]]) -> None:
-    rules, asked = crew
-    possible = [r for r in asked if r.outcome == "accepted"]
-    outcomes = [judge(r.text, rules, r.state).outcome for r in possible]
-    needless = (outcomes.count("refused") + outcomes.count("question") / 2) / len(possible)
-    assert needless <= NEEDLESS
+@pytest.mark.parametrize("file", list(FILES))
+def test_few_requests_are_refused_needlessly(file: str) -> None:
+    outcomes = []
+    for name, crew_name in CREWS.items():
+        rules = load_rules(crew_name)
+        possible = [r for r in requests(file, name) if r.outcome == "accepted"]
+        outcomes += [judge(r.text, rules, r.state).outcome for r in possible]
+    needless = (outcomes.count("refused") + outcomes.count("question") / 2) / len(outcomes)
+    assert needless <= NEEDLESS[file]
+
+
+def test_who_speaks_of_themselves_first_is_no_goal() -> None:
+    rules = load_rules("humanoid_quadruped")
+    told = judge("me, I need the bottle in room_a", rules)
+    assert told.instance is not None
+    assert told.instance.slots["destination"] == "room_a"
+    assert judge("here, take the bottle to room_a", rules).outcome != "accepted"
