@@ -71,6 +71,9 @@ def run_eval(options: EvalOptions) -> int:
     progress = Progress()
     try:
         results = (run_ablation if options.held else run_study)(wanted, progress)
+    except KeyboardInterrupt:
+        print(f"\nwhat was done is kept in {options.out}; the same command goes on", file=sys.stderr)
+        raise
     finally:
         progress.close()
     _conclude(results, wanted, time.monotonic() - began, as_json=quiet)
