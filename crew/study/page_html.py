@@ -21,6 +21,7 @@ from crew.study.page_text import (
     spread,
     spread_text,
 )
+from crew.verify import REPORT
 
 _POLICY = "default-src 'none'; style-src 'unsafe-inline'"
 WIDTH, HEIGHT, EDGE = 150.0, 26.0, 5.0
@@ -163,7 +164,7 @@ def _share(run: Run) -> str:
 
 
 def _link(run: Run, folder: Path) -> Html:
-    report = Path(run.run) / "report.html"
+    report = Path(run.run) / REPORT
     target = report if (folder / report).is_file() else Path(run.run)
     return tag("a", f"{run.scenario} {run.seed}", href=f"{target.as_posix()}{'' if target == report else '/'}")
 

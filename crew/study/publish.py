@@ -7,7 +7,7 @@ import msgspec
 
 from crew.contracts.site import Rules
 from crew.home import replace_file
-from crew.study.figures import write_figures
+from crew.study.figures import write_figures, write_reports
 from crew.study.metrics import Table, tabulate
 from crew.study.observation import Results
 from crew.study.scenario import Scenario
@@ -41,4 +41,5 @@ def publish_all(
     whole = Published(version=results.version, observations=results.observations, tables=found)
     written = msgspec.json.format(msgspec.json.encode(whole), indent=1) + b"\n"
     replace_file(out / RESULTS, written, durable=True)
+    write_reports((o.run for o in seen), out)
     return (out / RESULTS, *(write_figures(found, out) if found else ()))

@@ -10,7 +10,7 @@ from msgspec.structs import replace
 
 from crew.contracts.render.prompt import Arm
 from crew.library import load_rules
-from crew.study.figures import NAMES
+from crew.study.figures import NAMES, write_reports
 from crew.study.metrics import Table, tabulate
 from crew.study.observation import Observation, Results, read_results
 from crew.study.page_html import page
@@ -93,6 +93,16 @@ def test_a_figure_links_to_the_reports_of_its_runs(tables: tuple[Table, ...], tm
     text = page(tables, tmp_path)
     assert 'href="runs/lost-ro-0/report.html"' in text
     assert 'href="runs/lost-ro-1/"' in text, "no report was made of that one"
+
+
+def test_reports_are_made_of_runs_that_are_there_and_of_no_others(tmp_path: Path) -> None:
+    damaged, gone, told = tmp_path / "damaged", tmp_path / "gone", tmp_path / "told"
+    for folder in (damaged, told):
+        folder.mkdir()
+        (folder / "journal.db").write_bytes(b"no journal")
+    (told / "report.html").write_text("before")
+    assert write_reports([damaged.name, gone.name, told.name], tmp_path) == 0
+    assert (told / "report.html").read_text() == "before"
 
 
 def test_intervals_are_drawn_where_they_lie(tables: tuple[Table, ...], tmp_path: Path) -> None:
