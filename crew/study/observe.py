@@ -130,7 +130,7 @@ def _read(journal: Path, end_ns: int) -> Story:
             case EventRecord():
                 if isinstance(record.event, ev.Started | ev.Validated):
                     asked_ns = row.wall_ns
-                _take_event(story, record.event, (row.wall_ns - asked_ns) / 1e9)
+                take_event(story, record.event, (row.wall_ns - asked_ns) / 1e9)
     return story
 
 
@@ -141,7 +141,8 @@ def _take_origin(story: Story, text: str) -> None:
     )
 
 
-def _take_event(story: Story, event: ev.AnyEvent, waited_s: float) -> None:
+def take_event(story: Story, event: ev.AnyEvent, waited_s: float) -> None:
+    """Add what one event of the mission tells. `waited_s`: wall time since planning was last asked for."""
     attempt = len(story.proposals)
     match event:
         case ev.Proposed():
@@ -159,7 +160,8 @@ def _take_event(story: Story, event: ev.AnyEvent, waited_s: float) -> None:
         case ev.PlannerFailed():
             failed = Proposal(attempt=attempt, readable=False, latency_s=round(waited_s, 4), reason=event.reason)
             story.proposals.append(failed)
-            story.failure = event.reason
+            if not any(proposal.readable for proposal in story.proposals):
+                story.failure = event.reason
         case ev.Validated():
             refusal = event.validation.refusal
             if refusal is not None:

@@ -1,16 +1,19 @@
 """What journals show to the study: the golden runs, and missions without a plan."""
 
+import math
 from pathlib import Path
 
 import msgspec
 import pytest
 
+from crew.contracts.mission import event as ev
+from crew.contracts.plan import Call, Plan
 from crew.contracts.render.prompt import Arm
 from crew.library import load_rules
 from crew.sim.oracle import Frame, Licence, Never
 from crew.study.live import TRUTH, Ended
 from crew.study.observation import Observation
-from crew.study.observe import Mission, observe
+from crew.study.observe import Mission, Story, observe, take_event
 from crew.study.scenario import Scenario
 
 GOLDEN = Path(__file__).parents[3] / "replay"
@@ -82,3 +85,22 @@ def test_a_mission_that_left_nothing_is_counted_as_it_ended(tmp_path: Path) -> N
     mission = Mission(scenario=SCENARIO, arm=Arm.RO, planner="embedded", seed=0, version="1")
     seen = observe(mission, Ended(outcome="error", began_ns=0), RULES, folder, tmp_path, wall_s=1.0)
     assert (seen.outcome, seen.proposals, seen.dispatches, seen.as_expected) == ("error", (), (), False)
+
+
+def test_a_replan_that_fails_is_no_mission_without_a_plan() -> None:
+    story = Story(proposals=[], sent=[], dispatches=[], refusals=[])
+    failed = ev.PlannerFailed(at_ns=1, reason="the planner abstained")
+    take_event(story, failed, 0.1)
+    assert story.failure == "the planner abstained"
+    story.failure = ""
+    take_event(story, ev.Proposed(at_ns=2, plan=Plan("carry", (Call("g1", "wave"),)), planner="p"), 0.2)
+    take_event(story, failed, 0.1)
+    assert [p.readable for p in story.proposals] == [False, True, False]
+    assert story.failure == ""
+
+
+def test_a_number_that_is_none_is_written_by_its_name() -> None:
+    story = Story(proposals=[], sent=[], dispatches=[], refusals=[])
+    plan = Plan("dispatch_only", (Call("tb3", "navigate_to", {"x": math.nan, "y": -math.inf}),))
+    take_event(story, ev.Proposed(at_ns=2, plan=plan, planner="p"), 0.2)
+    assert story.proposals[0].steps[0].args == {"x": "nan", "y": "-inf"}
