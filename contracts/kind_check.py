@@ -39,7 +39,7 @@ def _mistakes(kind: Kind) -> Iterator[str]:
 def _skill(skill: Skill, kind: Kind) -> Iterator[str]:
     if not skill.effects and not skill.puts and not skill.reports:
         yield "it has no effect, puts nothing and reports nothing, so nothing could show that it was done"
-    named = {"needs": skill.needs, "effects": skill.effects, "during": skill.during}
+    named = {"needs": skill.needs, "step_needs": skill.step_needs, "effects": skill.effects, "during": skill.during}
     for where, facts in (*named.items(), *(("may", left) for left in skill.may)):
         yield from _facts(where, facts, skill, kind)
     yield from _arguments(skill)
@@ -55,6 +55,8 @@ def _facts(where: str, facts: Mapping[str, FluentLiteral], skill: Skill, kind: K
         if fluent is None:
             known = [f.name for f in kind.fluents]
             yield f"{where} speaks of {name!r}, which no telemetry shows{_near(name, known)}"
+        elif fluent.relation is not None and where not in ("needs", "step_needs"):
+            yield f"{where} speaks of {name!r}, which other robots change as well"
         elif isinstance(value, str) and value.startswith("$"):
             names = _PLACE_ARGS if value in _PLACE else (value[1:],)
             if not any(skill.param(arg) for arg in names):

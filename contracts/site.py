@@ -61,6 +61,20 @@ class RuntimeValue(msgspec.Struct, frozen=True, kw_only=True):
     """How far from it a robot stops."""
 
 
+class Separation(msgspec.Struct, frozen=True, kw_only=True):
+    """How far a drone that comes down and robots on the ground keep from each other, horizontally, in metres."""
+
+    column_m: float = 0.8
+    """Between their true centres."""
+    pose_m: float = 0.25
+    """How far each robot's own estimate of its position may be off."""
+
+    @property
+    def told_m(self) -> float:
+        """Between the positions that two robots tell."""
+        return self.column_m + 2.0 * self.pose_m
+
+
 class SimSpec(msgspec.Struct, frozen=True, kw_only=True):
     """Which simulated scene the crew lives in."""
 
@@ -87,6 +101,7 @@ class Crew(msgspec.Struct, frozen=True, kw_only=True):
     contracts: tuple[str, ...] = ()
     obstacles: tuple[tuple[float, float, float], ...] = ()
     """Known obstacles as discs x, y, radius: world ENU, metres."""
+    separation: Separation = Separation()
     sim: SimSpec | None = None
     source: str = ""
 

@@ -62,13 +62,23 @@ class Param(msgspec.Struct, frozen=True, kw_only=True, dict=True):
         return self.entity is Entity.NONE
 
 
+class Relation(StrEnum):
+    """A fact between robots, which the orchestrator makes of what they tell of themselves; see `separation`."""
+
+    COLUMN_BELOW = "column_below"
+    """Nobody stands or drives below this robot."""
+    COLUMN_ABOVE = "column_above"
+    """Nobody comes down upon this robot."""
+
+
 class Fluent(msgspec.Struct, frozen=True, kw_only=True):
-    """A fact about a robot that telemetry observes: its domain, who observes it, and how old it may be."""
+    """A fact about a robot that is observed: its domain, by whom, and how old it may be."""
 
     name: str
     domain: Literal["bool", "place", "object", "number"]
     about: str
-    observer: str = "telemetry"
+    relation: Relation | None = None
+    """Observed by the orchestrator, of this robot and the others; without it, by the robot's own telemetry."""
     max_age_s: float = 2.0
     tolerance_m: float = 0.0
     """For a place: how far from it still counts as being there."""
@@ -120,6 +130,8 @@ class Skill(msgspec.Struct, frozen=True, kw_only=True, dict=True):
     words: tuple[str, ...]
     """Action words of a request that mean this skill."""
     needs: Mapping[str, FluentLiteral] = {}
+    step_needs: Mapping[str, FluentLiteral] = {}
+    """Preconditions of a step of a plan, from which the way to the safe state is exempt."""
     effects: Mapping[str, FluentLiteral] = {}
     during: Mapping[str, FluentLiteral] = {}
     may: tuple[Mapping[str, FluentLiteral], ...] = ()
@@ -136,7 +148,12 @@ class Skill(msgspec.Struct, frozen=True, kw_only=True, dict=True):
     on_stop: str
     on_link_loss: str
     safe: bool = False
-    """May serve as a safe state's skill: it has no preconditions."""
+    """May serve as a safe state's skill: then it has no preconditions."""
+
+    @cached_property
+    def all_needs(self) -> Mapping[str, FluentLiteral]:
+        """Preconditions of a step."""
+        return {**self.needs, **self.step_needs}
 
     @cached_property
     def params(self) -> tuple[Param, ...]:

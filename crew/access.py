@@ -82,6 +82,7 @@ TABLE = (
     # robots
     Row("{robot}/card", Way.PUT, (ROB,), (ORC, OPE, REC)),
     Row("{robot}/state", Way.PUT, (ROB,), (ORC, OPE, REC, GUE)),
+    Row("*/state", Way.PUT, (), (ROB,)),
     Row("{robot}/event", Way.PUT, (ROB,), (ORC, OPE, REC)),
     Row("{robot}/value/*", Way.PUT, (ROB,), (ORC, OPE, REC)),
     # simulation

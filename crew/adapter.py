@@ -36,6 +36,8 @@ class AdapterConfig(msgspec.Struct, frozen=True, kw_only=True):
     """Known obstacles of the site's map as discs x, y, radius: world ENU, metres."""
     locations: Mapping[str, tuple[float, float]] = {}
     """The crew's named places: world ENU, metres."""
+    separation_m: float = 0.0
+    """How far a drone that comes down and robots on the ground keep from each other, between the places they tell."""
     geofence: bool = True
     fitness: bool = True
     """Whether a skill is refused while the robot reports a fault; without it the robot itself has the only word.
@@ -148,6 +150,27 @@ class TellsProgress(Protocol):
 
     def progress(self) -> Course | None:
         """Of the skill that runs; None if none does, or if it is not known."""
+        ...
+
+
+class Neighbour(msgspec.Struct, frozen=True, kw_only=True):
+    """Another robot of the crew by its own last word. World ENU, metres."""
+
+    robot: str
+    x: float
+    y: float
+    standing: bool
+    """It may be on the ground."""
+    coming_down: bool
+    """It may be coming down through the air."""
+
+
+@runtime_checkable
+class KeepsClear(Protocol):
+    """An adapter that keeps clear of the crew's other robots. Optional; it may ask nobody but its own neighbours."""
+
+    def meet(self, neighbour: Neighbour) -> None:
+        """Take a neighbour's last word; it counts until the next one."""
         ...
 
 

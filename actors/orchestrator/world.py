@@ -6,6 +6,7 @@ from crew.actors.orchestrator.hold import StopHold
 from crew.actors.orchestrator.identity import Identities
 from crew.clock import WALL, seconds_ns
 from crew.contracts.gate.guard import FUTURE_NS
+from crew.contracts.separation import with_relations
 from crew.contracts.site import Rules
 from crew.contracts.snapshot import RobotState, Snapshot, Stamped, StampedValue
 from crew.messages import RobotCard, RobotEvent, RobotStatus, RobotValue
@@ -129,7 +130,8 @@ class WorldFold:
     def snapshot(self, leases: Mapping[str, str]) -> Snapshot:
         """The world now, for the gate."""
         robots = {name: self._robot(name, leases.get(name, "")) for name in sorted(self._names)}
-        return Snapshot(robots=robots, values=dict(self._values), stopped=self.stopped)
+        related = with_relations(robots, self._rules)
+        return Snapshot(robots=related, values=dict(self._values), stopped=self.stopped)
 
     def _robot(self, name: str, lease: str) -> RobotState:
         card, state, lost = self.cards.get(name), self._states.get(name), self.lost(name)

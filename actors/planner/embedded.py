@@ -319,7 +319,7 @@ def _startable(skill: Skill, robot: str, state: PlannerState) -> bool:
     known: dict[str, FluentLiteral] = {}
     if robot in state.airborne:
         known["airborne"] = state.airborne[robot]
-    return all(known.get(fluent, wanted) == wanted for fluent, wanted in skill.needs.items())
+    return all(known.get(fluent, wanted) == wanted for fluent, wanted in skill.all_needs.items())
 
 
 def _prepares(step: Step, skill: Skill, casting: Casting, rules: Rules) -> bool:

@@ -8,6 +8,7 @@ import msgspec
 from crew.access import ACTUATION
 from crew.actors.robot.admission import Admission, Refused
 from crew.actors.robot.lost import OrchestratorWatch
+from crew.actors.robot.neighbours import Neighbours
 from crew.actors.robot.report import Reporter
 from crew.actors.robot.stop import StopSwitch
 from crew.adapter import Adapter, Place
@@ -72,6 +73,7 @@ class RobotActor:
         self.report = Reporter(bus, keys, spec, self, adapter, clock)
         self._stop = StopSwitch(bus, keys, self, adapter, operator_key)
         self._watch = OrchestratorWatch(bus, keys, self, self._stop, orchestrator_key)
+        self._neighbours = Neighbours(bus, keys, spec.name, rules, adapter)
         self._commands: Commands[Letter[Message]] = Commands(
             letters(Dispatch, CancelSkill),
             capacity=COMMAND_CAPACITY,
@@ -128,6 +130,7 @@ class RobotActor:
                 group.create_task(self._connect())
                 group.create_task(self._stop.run())
                 group.create_task(self._watch.run())
+                group.create_task(self._neighbours.run())
                 async for letter in self._commands:
                     self._handle(letter.message, group)
         finally:

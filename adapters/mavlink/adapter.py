@@ -4,12 +4,13 @@ import asyncio
 from collections.abc import AsyncIterator, Callable, Mapping
 from typing import cast
 
-from crew.adapter import AdapterConfig, Check, Course, Place, Reading, StopLatch
+from crew.adapter import AdapterConfig, Check, Course, Neighbour, Place, Reading, StopLatch
 from crew.adapters.mavlink.braking import brake
 from crew.adapters.mavlink.checklist import walk
 from crew.adapters.mavlink.flavours.flavour import FlightFlavour
 from crew.adapters.mavlink.link import LinkCounts
 from crew.adapters.mavlink.options import QuadcopterOptions, RoverOptions, VehicleOptions, read_options
+from crew.adapters.mavlink.others import Others
 from crew.adapters.mavlink.quadcopter import QuadcopterSkills
 from crew.adapters.mavlink.rover import RoverSkills
 from crew.adapters.mavlink.run import HANDS_OFF, Run
@@ -38,6 +39,7 @@ class MavlinkAdapter:
         self._latch = StopLatch()
         self._counts = LinkCounts()
         self._callbacks: list[Callable[[], None]] = []
+        self._others = Others(config.separation_m)
         self._vehicle = self._new_vehicle()
         self._skills: Skills | None = None
         self._run: Run | None = None
@@ -167,6 +169,10 @@ class MavlinkAdapter:
             return "not connected"
         return self._vehicle.link_fault() or self._pilot() or self._vehicle.fault() or self._motion_doubt()
 
+    def meet(self, neighbour: Neighbour) -> None:
+        """Keep clear of it from now on."""
+        self._others.meet(neighbour)
+
     def link_counts(self) -> tuple[int, int]:
         """Datagrams sent and received."""
         return self._counts.sent, self._counts.received
@@ -185,8 +191,8 @@ class MavlinkAdapter:
     def _new_skills(self) -> Skills:
         flavour, options = self._vehicle.flavour, self._options
         if isinstance(options, QuadcopterOptions):
-            return QuadcopterSkills(self._vehicle, cast(FlightFlavour, flavour), options)
-        return RoverSkills(self._vehicle, flavour, cast(RoverOptions, options))
+            return QuadcopterSkills(self._vehicle, cast(FlightFlavour, flavour), options, self._others)
+        return RoverSkills(self._vehicle, flavour, cast(RoverOptions, options), self._others)
 
     async def _disconnect(self) -> None:
         self._skills = None

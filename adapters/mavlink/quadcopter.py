@@ -4,11 +4,14 @@ import math
 from collections.abc import Mapping
 
 from crew.adapter import Place, Reading
+from crew.adapters.ground.occupancy import Disc
 from crew.adapters.mavlink.camera import footprint_m
 from crew.adapters.mavlink.fence import check_inside
 from crew.adapters.mavlink.flavours.flavour import FlightFlavour
 from crew.adapters.mavlink.fluents import common_fluents
+from crew.adapters.mavlink.landing import TRIES, Landing
 from crew.adapters.mavlink.options import QuadcopterOptions
+from crew.adapters.mavlink.others import Others
 from crew.adapters.mavlink.preflight import check_failsafes
 from crew.adapters.mavlink.run import Run
 from crew.adapters.mavlink.search import VICTIM, Search
@@ -25,6 +28,7 @@ STILL_MPS = 0.25
 PASS_M = 0.8
 """A corner of a sweep is passed, not stopped at, within this distance."""
 ON_GROUND_M = 0.5
+SINKING_MPS = 0.4
 ASIDE_M = 2.0
 """It lands no nearer than this to a person that it has just found."""
 
@@ -35,7 +39,8 @@ class QuadcopterSkills:
     still_mps = STILL_MPS
     unconditional = frozenset({"land"})
 
-    def __init__(self, vehicle: Vehicle, flavour: FlightFlavour, options: QuadcopterOptions) -> None:
+    def __init__(self, vehicle: Vehicle, flavour: FlightFlavour, options: QuadcopterOptions, others: Others) -> None:
+        self._others = others
         self._vehicle = vehicle
         self._flavour = flavour
         self._options = options
@@ -50,6 +55,8 @@ class QuadcopterSkills:
             found["airborne"] = Reading(airborne.value, airborne.stamp_ns)
         if told.motion is not None:
             found["altitude"] = Reading(told.motion.value.height_m, told.motion.stamp_ns)
+        if airborne is not None and told.motion is not None:
+            found["descending"] = Reading(self._descending(told.motion.value, airborne.value), told.motion.stamp_ns)
         found["swept"] = Reading(self._swept, self._vehicle.clock.now_ns())
         return found
 
@@ -76,17 +83,24 @@ class QuadcopterSkills:
                 check_inside(self._vehicle.config, args.x, args.y, "fly_to")
                 await self.travel(run, args.x, args.y, args.altitude, None)
             case Land():
-                await self._move_aside(run)
                 await self.come_down(run)
             case _:
                 raise AdapterError(f"a quadcopter has no skill with {type(args).__name__}", code="unknown_skill")
 
     async def come_down(self, run: Run) -> None:
-        """Land where it is; done when on the ground and disarmed."""
-        if self.grounded:
-            return
-        await run.command(self._flavour.land, leads_to=self._flavour.land_modes)
-        await run.until(lambda: self.grounded, lambda: max(0.0, self._motion().height_m), "land")
+        """Land where it is, or aside; done when on the ground and disarmed. Raises AdapterError `not_clear`."""
+        landing = Landing(self._vehicle, self._flavour, self._others, self._options.ceiling_m, self._person())
+        height_m = self._height_m()
+        for _ in range(TRIES):
+            if self.grounded:
+                return
+            if (spot := landing.aside()) is not None:
+                await self.travel(run, *spot, None)
+            if await landing.descend(run, lambda: self.grounded, self.battery_low):
+                return
+            motion = self._motion()
+            await self.travel(run, motion.x_m, motion.y_m, max(height_m, motion.height_m), None)
+        raise landing.occupied()
 
     async def travel(self, run: Run, x_m: float, y_m: float, height_m: float, heading_rad: float | None) -> None:
         """Fly to a point and hover there, nearly still."""
@@ -133,25 +147,26 @@ class QuadcopterSkills:
             run.permit.check()
             await self._vehicle.commander.send(self._flavour.disarm, run.permit)
 
-    async def _move_aside(self, run: Run) -> None:
-        """Never land on the person it has found, nor where a ground robot will stop: move away from above the fix."""
-        found, told = self._values.get(VICTIM), self._vehicle.telemetry.motion
-        if found is None or found.status != "ok" or found.position is None or told is None or self.grounded:
-            return
-        here, person = told.value, found.position
-        if not math.hypot(here.x_m - person.x, here.y_m - person.y) < ASIDE_M:
-            return
-        x_m, y_m = self._clearest_around(person.x, person.y)
-        await self.travel(run, x_m, y_m, here.height_m, None)
+    def _person(self) -> list[Disc]:
+        """Where it does not land: on the person it has found, and where a ground robot will stop."""
+        found = self._values.get(VICTIM)
+        if found is None or found.status != "ok" or found.position is None:
+            return []
+        here = (found.position.x, found.position.y)
+        return [(*here, ASIDE_M)] if all(map(math.isfinite, here)) else []
 
-    def _clearest_around(self, x_m: float, y_m: float) -> tuple[float, float]:
-        """Of the spots a little beyond `ASIDE_M` from a point, the one furthest from every known obstacle."""
-        config = self._vehicle.config
-        x_min, x_max, y_min, y_max = config.area
-        reach_m, turns = ASIDE_M + 0.5, [math.tau * i / 12 for i in range(12)]
-        around = [(x_m + reach_m * math.cos(a), y_m + reach_m * math.sin(a)) for a in turns]
-        inside = [(x, y) for x, y in around if x_min <= x <= x_max and y_min <= y <= y_max] or [(x_m, y_m)]
-        return max(inside, key=lambda p: min((math.dist(p, (x, y)) - r for x, y, r in config.obstacles), default=0.0))
+    def battery_low(self) -> bool:
+        """It comes down at once, wherever it is."""
+        battery = self._vehicle.telemetry.battery_percent
+        return battery is not None and battery.value < self._options.min_battery_percent
+
+    def _height_m(self) -> float:
+        motion = self._vehicle.telemetry.motion
+        return 0.0 if motion is None else min(motion.value.height_m, self._options.ceiling_m)
+
+    def _descending(self, motion: Motion, airborne: bool) -> bool:
+        landing = self._vehicle.found and self._vehicle.mode() in self._flavour.land_modes
+        return airborne and (landing or motion.up_mps < -SINKING_MPS)
 
     async def _search(self, run: Run, args: SearchTarget) -> None:
         self._require_airborne("search_target")

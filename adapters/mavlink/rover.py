@@ -11,6 +11,7 @@ from crew.adapters.mavlink.fence import check_inside
 from crew.adapters.mavlink.flavours.flavour import Flavour
 from crew.adapters.mavlink.fluents import common_fluents
 from crew.adapters.mavlink.options import RoverOptions
+from crew.adapters.mavlink.others import Others
 from crew.adapters.mavlink.preflight import check_failsafes
 from crew.adapters.mavlink.run import Run
 from crew.adapters.mavlink.vehicle import Vehicle
@@ -38,7 +39,8 @@ class RoverSkills:
     unconditional = frozenset({"stop"})
     grounded = False
 
-    def __init__(self, vehicle: Vehicle, flavour: Flavour, options: RoverOptions) -> None:
+    def __init__(self, vehicle: Vehicle, flavour: Flavour, options: RoverOptions, others: Others) -> None:
+        self._others = others
         self._vehicle = vehicle
         self._flavour = flavour
         self._options = options
@@ -71,9 +73,9 @@ class RoverSkills:
         check_inside(self._vehicle.config, place.x, place.y, "navigate_to")
         await check_failsafes(self._flavour, self._vehicle.parameters)
         await self._vehicle.fresh_home()
-        route = self._plan(place, ())
+        met = self._others.columns()
+        route = self._detour(place, met) if met else self._plan(place, ())
         await run.command(*self._flavour.prepare(), leads_to=self._flavour.travel_modes)
-        met: list[Disc] = []
         for _ in range(DETOURS):
             new = await self._drive(run, place, route, met)
             if not new:
@@ -87,7 +89,7 @@ class RoverSkills:
 
     async def _drive(self, run: Run, place: Place, route: list[Spot], met: Sequence[Disc]) -> list[Disc]:
         """Along a route to its end; or, stopping nowhere, what unknown things have come in its way."""
-        watch = Watch(self._vehicle, place, met, self._options)
+        watch = Watch(self._vehicle, place, met, self._options, self._others)
         run.way.plan(self._here(), route)
         for spot in route[:-1]:
             if new := await self._leg(run, spot, PASS_M, math.inf, watch):
@@ -122,10 +124,11 @@ class RoverSkills:
             raise self._blocked(met, str(error)) from error
 
     def _blocked(self, met: Sequence[Disc], why: str) -> AdapterError:
-        x, y, _ = met[-1]
+        x, y, radius_m = met[-1]
+        drone = (x, y, radius_m) in self._others.columns()
+        what = "a drone comes down" if drone else "something that is not on the map stands in the way"
         return AdapterError(
-            f"{self._vehicle.config.robot}: something that is not on the map stands in the way "
-            f"near ({x:.1f}, {y:.1f}): {why}",
+            f"{self._vehicle.config.robot}: {what} near ({x:.1f}, {y:.1f}): {why}",
             code="path_blocked",
         )
 

@@ -1,4 +1,4 @@
-"""What a rover's scanner says on the way to one place. Decides nothing: the skill asks it at each poll."""
+"""What is in a rover's way by its scanner and by the crew's drones. Decides nothing: the skill asks it at each poll."""
 
 import math
 from collections.abc import Sequence
@@ -6,7 +6,8 @@ from collections.abc import Sequence
 from crew.adapter import Place
 from crew.adapters.ground.occupancy import Disc, Spot
 from crew.adapters.mavlink.options import RoverOptions
-from crew.adapters.mavlink.surroundings import Scan, in_the_way, new_obstacles
+from crew.adapters.mavlink.others import Others
+from crew.adapters.mavlink.surroundings import HIT_RADIUS_M, Scan, in_the_way, new_obstacles
 from crew.adapters.mavlink.telemetry import Motion, Sample
 from crew.adapters.mavlink.vehicle import Vehicle
 
@@ -15,12 +16,17 @@ LOOKAHEAD_M = 0.9
 BEFORE_M = 0.4
 """A thing right ahead counts as what it was sent to this far outside the stand-off: the errors of fix and position."""
 SCAN_MAX_AGE_S = 1.0
+MOVED_M = 0.5
+"""A drone that comes down this far from where it was counts anew."""
 
 
 class Watch:
-    """What the scanner says on the way to one place; a vehicle without a scanner says nothing."""
+    """What is said on the way to one place; a vehicle without a scanner is told of drones that come down alone."""
 
-    def __init__(self, vehicle: Vehicle, place: Place, met: Sequence[Disc], options: RoverOptions) -> None:
+    def __init__(
+        self, vehicle: Vehicle, place: Place, met: Sequence[Disc], options: RoverOptions, others: Others
+    ) -> None:
+        self._others, self._met = others, met
         self._vehicle = vehicle
         self._place = place
         self._known = (*vehicle.config.obstacles, *met)
@@ -28,7 +34,21 @@ class Watch:
         self._seen_ns = 0
 
     def in_the_way(self, spot: Spot) -> list[Disc]:
-        """Unknown obstacles, if one of them is in the way to `spot`; each scan is looked at once."""
+        """New obstacles, if one of them is in the way to `spot`; each scan is looked at once."""
+        return self._below_a_drone(spot) or self._scanned(spot)
+
+    def _below_a_drone(self, spot: Spot) -> list[Disc]:
+        """Columns that are not known yet, if one of them is in the way."""
+        motion = self._vehicle.telemetry.motion
+        if motion is None:
+            return []
+        here, width_m = (motion.value.x_m, motion.value.y_m), self._options.robot_radius_m
+        known = [met[:2] for met in self._met if met[2] > 2 * HIT_RADIUS_M]
+        new = [c for c in self._others.columns() if all(math.dist(c[:2], spot) > MOVED_M for spot in known)]
+        leaving = [c for c in new if math.dist(here, c[:2]) >= c[2] or math.dist(spot, c[:2]) < c[2]]
+        return leaving if in_the_way(leaving, here, spot, width_m, LOOKAHEAD_M) else []
+
+    def _scanned(self, spot: Spot) -> list[Disc]:
         told, motion, heading = self._told()
         if told is None or motion is None or heading is None or told.stamp_ns == self._seen_ns:
             return []

@@ -40,11 +40,11 @@ def passed_checks(case: CallCase) -> tuple[Check, ...]:
     declared = None if case.instance is None else case.instance.step(case.step)
     found = [*_capability(case), *_arguments(case)]
     if case.purpose is Purpose.SAFE:
-        return (*found, *_safe(case), *_state(case), *_preconditions(case))
+        return (*found, *_safe(case), *_state(case), *_preconditions(case, Purpose.SAFE))
     assert declared is not None, "an allowed step is one of its instance"
     contract = case.rules.contracts[case.mission.contract]
     found += [*_workflow(case, declared, contract), *_containment(case, declared, contract)]
-    found += [*_state(case), *_preconditions(case), *_guards(case, contract), *_limits(case, contract)]
+    found += [*_state(case), *_preconditions(case, Purpose.EXECUTE), *_guards(case, contract), *_limits(case, contract)]
     return (*found, *_values(case))
 
 
@@ -150,9 +150,10 @@ def _state(case: CallCase) -> Iterator[Check]:
         )
 
 
-def _preconditions(case: CallCase) -> Iterator[Check]:
+def _preconditions(case: CallCase, purpose: Purpose) -> Iterator[Check]:
     scope = scope_of(case.mission, case.world, case.rules, case.now_ns)
-    for fluent, wanted in skill_of(case.call, case.rules).needs.items():
+    skill = skill_of(case.call, case.rules)
+    for fluent, wanted in (skill.needs if purpose is Purpose.SAFE else skill.all_needs).items():
         verdict = robot_fluent_is(case.call.robot, fluent, wanted, scope)
         what = f"{case.call.skill} needs that {clause(f'{case.call.robot}.{fluent}', wanted)}"
         yield Check(group=Group.STATE, what=what, observed=_seen(verdict))

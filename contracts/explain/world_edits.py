@@ -90,8 +90,8 @@ def _wanted(path: str, attribute: str, robot: str, case: Case) -> Iterator[Fluen
     """Values that the skill's preconditions and the contract's guards ask of a path."""
     kind = case.rules.kind_of(robot)
     for skill in () if kind is None else kind.skills:
-        if attribute in skill.needs:
-            yield from _meant(skill.needs[attribute], False, case)
+        if attribute in skill.all_needs:
+            yield from _meant(skill.all_needs[attribute], False, case)
     yield from _asked(path, case)
 
 

@@ -5,7 +5,7 @@ from crew.contracts.files.crew_model import AreaModel, CrewModel, OriginModel, Z
 from crew.contracts.files.file_model import validate
 from crew.contracts.files.source import Problems, parse
 from crew.contracts.plan import Zone
-from crew.contracts.site import Crew, Location, NamedObject, NamedZone, RobotSpec, RuntimeValue, SimSpec
+from crew.contracts.site import Crew, Location, NamedObject, NamedZone, RobotSpec, RuntimeValue, Separation, SimSpec
 
 
 def load_crew(text: str, *, source: str) -> Crew:
@@ -48,6 +48,7 @@ def _build(model: CrewModel, source: str) -> Crew:
         ),
         contracts=tuple(model.contracts),
         obstacles=tuple((x, y, radius) for x, y, radius in model.obstacles),
+        separation=Separation(column_m=model.separation.column_m, pose_m=model.separation.pose_m),
         sim=_sim(model),
         source=source,
     )

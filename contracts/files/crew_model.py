@@ -5,6 +5,7 @@ from typing import Annotated, Any, ClassVar
 from pydantic import Field
 
 from crew.contracts.files.file_model import FileModel, Name, Text
+from crew.contracts.site import Separation
 
 Range = Annotated[list[float], Field(min_length=2, max_length=2)]
 """Lowest and highest, metres."""
@@ -76,6 +77,16 @@ class ValueModel(FileModel):
     standoff_m: Annotated[float, Field(ge=0, description="How far from it a robot stops")] = 0.0
 
 
+class SeparationModel(FileModel):
+    """How far a drone that comes down and robots on the ground keep from each other, horizontally, metres."""
+
+    called: ClassVar[str] = "the separation"
+    column_m: Annotated[float, Field(gt=0, le=100, description="Between their true centres")] = Separation().column_m
+    pose_m: Annotated[float, Field(ge=0, le=50, description="How far each one's own position may be off")] = (
+        Separation().pose_m
+    )
+
+
 class SimModel(FileModel):
     """The simulated scene."""
 
@@ -105,5 +116,6 @@ class CrewModel(FileModel):
     obstacles: list[Disc] = Field(
         default_factory=list, description="Known obstacles as discs x, y, radius: world ENU, metres"
     )
+    separation: SeparationModel = Field(default_factory=SeparationModel)
     sim: SimModel | None = None
     demo: Annotated[str, Field(max_length=500, description="The request that `crew demo` makes of this crew")] = ""

@@ -48,7 +48,7 @@ def _conditions(
 ) -> Iterator[Refusal]:
     """Every condition on the call that does not hold: preconditions; for a step also guards, deadline, approval."""
     scope = scope_of(mission, world, rules, now_ns)
-    yield from _preconditions(call, scope)
+    yield from _preconditions(call, scope, purpose)
     if purpose is Purpose.EXECUTE:
         yield from _guards(step, mission, scope)
         refusals = (
@@ -97,7 +97,7 @@ def _check_busy(call: Call, step: str, mission: MissionState, world: Snapshot) -
 
 
 def _check_freshness(call: Call, world: Snapshot, rules: Rules, now_ns: int, purpose: Purpose) -> Refusal | None:
-    """A robot takes no step while any fluent that it has told is too old, whether or not a guard reads it.
+    """A robot takes no step while any fluent of its own is too old, whether or not a guard reads it.
 
     A safe call asks only for those that show its effect: a drone that lost its position may still be told to land.
     """
@@ -105,7 +105,8 @@ def _check_freshness(call: Call, world: Snapshot, rules: Rules, now_ns: int, pur
     assert kind is not None
     fluents = world.robots[call.robot].fluents
     watched = skill_of(call, rules).effects if purpose is Purpose.SAFE else fluents
-    heard = [(f, fluents[f.name]) for f in kind.fluents if f.name in fluents and f.name in watched]
+    own = [f for f in kind.fluents if f.relation is None and f.name in watched]
+    heard = [(f, fluents[f.name]) for f in own if f.name in fluents]
     if not heard:
         return _stale(call, call.robot, "nothing heard yet", "fresh telemetry")
     for declared, stamped in heard:
@@ -122,8 +123,9 @@ def _stale(call: Call, field: str, observed: str, allowed: str) -> Refusal:
     return Refusal(code=Code.STATE_STALE, message=message, field=field, observed=observed, allowed=allowed)
 
 
-def _preconditions(call: Call, scope: Scope) -> Iterator[Refusal]:
-    for fluent, wanted in skill_of(call, scope.rules).needs.items():
+def _preconditions(call: Call, scope: Scope, purpose: Purpose) -> Iterator[Refusal]:
+    skill = skill_of(call, scope.rules)
+    for fluent, wanted in (skill.needs if purpose is Purpose.SAFE else skill.all_needs).items():
         verdict = robot_fluent_is(call.robot, fluent, wanted, scope)
         if verdict.truth is not Truth.HOLDS:
             yield _unmet(f"{call.robot}.{fluent}", f"is {show(wanted)}", verdict, "")

@@ -2,7 +2,7 @@
 
 from typing import Annotated
 
-from crew.contracts.skill import Fluent, Kind, Published, Skill, SkillArgs, number
+from crew.contracts.skill import Fluent, Kind, Published, Relation, Skill, SkillArgs, number
 
 Altitude = Annotated[
     float, number(ge=2.0, le=10.0, unit="m", frame="above home", about="Height above the take-off point.")
@@ -46,6 +46,14 @@ QUADCOPTER = Kind(
         Fluent(name="moving", domain="bool", about="Ground speed above 0.3 m/s."),
         Fluent(name="at", domain="place", about="Horizontal position.", tolerance_m=0.8),
         Fluent(name="altitude", domain="number", about="Height above home, metres."),
+        Fluent(name="descending", domain="bool", about="In the air, and landing or sinking faster than 0.4 m/s."),
+        Fluent(
+            name="clear_below",
+            domain="bool",
+            about="No other robot of the crew is on the ground within the separation of the point below it.",
+            relation=Relation.COLUMN_BELOW,
+            at_rest=True,
+        ),
         Fluent(name="swept", domain="bool", about="The last search covered its whole zone."),
         Fluent(name="battery", domain="number", about="Charge, percent.", max_age_s=5.0),
     ),
@@ -117,9 +125,10 @@ QUADCOPTER = Kind(
         ),
         Skill(
             name="land",
-            about="Land where it is and disarm.",
+            about="Land where it is, or aside if somebody is below, and disarm.",
             args=Land,
             words=("land", "come down", "touch down", "descend"),
+            step_needs={"clear_below": True},
             effects={"airborne": False},
             during={"moving": True},
             timeout_s=60.0,

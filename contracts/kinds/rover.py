@@ -2,7 +2,7 @@
 
 from typing import Annotated
 
-from crew.contracts.skill import Entity, Fluent, Kind, Skill, SkillArgs, entity, number
+from crew.contracts.skill import Entity, Fluent, Kind, Relation, Skill, SkillArgs, entity, number
 
 X = Annotated[float, number(ge=-1000.0, le=1000.0, unit="m", frame="world ENU", axis="x", about="East coordinate.")]
 Y = Annotated[float, number(ge=-1000.0, le=1000.0, unit="m", frame="world ENU", axis="y", about="North coordinate.")]
@@ -28,6 +28,13 @@ ROVER = Kind(
     fluents=(
         Fluent(name="moving", domain="bool", about="Ground speed above 0.1 m/s."),
         Fluent(name="at", domain="place", about="Horizontal position.", tolerance_m=0.6),
+        Fluent(
+            name="clear_above",
+            domain="bool",
+            about="No drone of the crew comes down within the separation of it.",
+            relation=Relation.COLUMN_ABOVE,
+            at_rest=True,
+        ),
         Fluent(name="battery", domain="number", about="Charge, percent.", max_age_s=5.0),
     ),
     skills=(
@@ -37,7 +44,7 @@ ROVER = Kind(
             args=NavigateTo,
             forms=(("target",), ("x", "y")),
             words=("send", "drive", "dispatch", "navigate", "go", "move", "head", "travel", "bring", "direct", "route"),
-            needs={},
+            needs={"clear_above": True},
             effects={"at": "$place", "moving": False},
             during={"moving": True},
             timeout_s=180.0,

@@ -103,17 +103,24 @@ def safe_state_missing(robot: str, reach: Mapping[str, FluentLiteral], scope: Sc
 
 
 def assumed_world(world: Snapshot, mission_id: str, rules: Rules, now_ns: int) -> Snapshot:
-    """The world that validation starts from: every robot available, leased and idle; what is known counts as fresh."""
+    """The world that validation starts from: every robot available, leased and idle; what is known counts as fresh.
+
+    Robots are taken to keep clear of each other: where they will be by then is not known.
+    """
     robots = {}
     for spec in rules.crew.robots:
         known = world.robots.get(spec.name) or RobotState(name=spec.name)
+        relations = {f.name: f.resting for f in rules.kinds[spec.kind].fluents if f.relation is not None}
         robots[spec.name] = replace(
             known,
             kind_digest=rules.kinds[spec.kind].digest,
             unavailable="",
             running="",
             lease=mission_id,
-            fluents={name: Stamped(s.value, now_ns, now_ns) for name, s in known.fluents.items()},
+            fluents={
+                **{name: Stamped(s.value, now_ns, now_ns) for name, s in known.fluents.items()},
+                **{name: Stamped(v, now_ns, now_ns) for name, v in relations.items() if v is not None},
+            },
         )
     return replace(world, robots=robots)
 

@@ -40,7 +40,7 @@ def needed_by_skill(step: Step, contract: Contract, rules: Rules) -> Facts:
     common: dict[str, FluentLiteral] | None = None
     for call in step.do:
         for skill in skills_of(step.role, call.skill, contract, rules):
-            asked = {f"{step.role}.{fluent}": value for fluent, value in skill.needs.items()}
+            asked = {f"{step.role}.{fluent}": value for fluent, value in skill.all_needs.items()}
             common = asked if common is None else dict(common.items() & asked.items())
     skills = " and ".join(dict.fromkeys(call.skill for call in step.do))
     return {path: (value, f"{skills} needs it already") for path, value in (common or {}).items()}

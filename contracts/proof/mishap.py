@@ -63,7 +63,7 @@ def _robot(state: RobotState, call: Call, ground: Ground, purpose: Purpose) -> I
     yield "the robot has told nothing", replace(state, fluents={})
     watched = skill_of(call, ground.rules).effects if purpose is Purpose.SAFE else state.fluents
     for fluent in state.fluents if watched else ():
-        if fluent in watched:
+        if fluent in watched and not ground.is_relation(Var(state.name, fluent)):
             yield f"its {fluent} is stale", replace(state, fluents=_aged(state.fluents, fluent, LONG_AGO_NS))
             yield f"its {fluent} is of the future", replace(state, fluents=_aged(state.fluents, fluent, FAR_AHEAD_NS))
 

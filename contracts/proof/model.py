@@ -368,14 +368,14 @@ class Model:
         return tuple(left)
 
     def _narrow(self, fluents: Fluents, alike: Iterable[tuple[Var, Possible]], mission: MissionState) -> Fluents:
-        """What was seen stays so, unless something is changing it."""
+        """What was seen stays so, unless something is changing it; how robots stand to each other never does."""
         left = list(fluents)
         running = [self._while[name] for name, r in mission.steps.items() if r.phase in ACTIVE]
         running += [self._safe_while[role] for role, r in mission.safe.items() if r.phase in ACTIVE]
         changing = {var for during in running for var in during}
         for var, values in alike:
             index = self.ground.index.get(var)
-            if index is not None and var not in changing:
+            if index is not None and var not in changing and not self.ground.is_relation(var):
                 left[index] = values
         return tuple(left)
 

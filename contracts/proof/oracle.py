@@ -72,7 +72,8 @@ class Oracle:
         for guard in (*entry, *guards):
             if counts(guard, self._ground.slots) and not holds(guard, self._instance.roles, self._ground.slots, told):
                 yield Trouble("guard_ignored", f"{call} is sent although it needs that {guard}", step)
-        for fluent, value in skill_of(call, self._ground.rules).needs.items():
+        skill = skill_of(call, self._ground.rules)
+        for fluent, value in (*skill.needs.items(), *skill.step_needs.items()):
             if told.get(Var(call.robot, fluent)) != value:
                 yield Trouble("guard_ignored", f"{call} is sent although it needs {fluent}: {value}", step)
 

@@ -149,7 +149,8 @@ class Desk:
         if not mission.sent_any:
             guards = (*self._contract.needs, *guards)
         yield from asked(guards, self._ground.instance.roles, self._ground.slots)
-        for fluent, value in skill_of(call, self._ground.rules).needs.items():
+        skill = skill_of(call, self._ground.rules)
+        for fluent, value in (*skill.needs.items(), *skill.step_needs.items()):
             yield Var(call.robot, fluent), value
 
     def _bound(self, call: Call) -> Iterator[str]:

@@ -78,6 +78,11 @@ class Ground:
         """Whether a variable belongs to a run-time value: an input of each decision, never remembered."""
         return self.rules.kind_of(var.owner) is None
 
+    def is_relation(self, var: Var) -> bool:
+        """Whether a variable is a fact between robots: any other robot's motion may change it at any moment."""
+        fluent = self.rules.fluent_of(var.owner, var.name)
+        return fluent is not None and fluent.relation is not None
+
     @staticmethod
     def calm(domain: str) -> FluentValue:
         """What a fluent of this domain is that nobody asks for."""
@@ -93,7 +98,7 @@ class Ground:
 
     def _ask_skill(self, call: Call) -> None:
         skill = skill_of(call, self.rules)
-        for fluent, literal in (*skill.needs.items(), *skill.during.items()):
+        for fluent, literal in (*skill.needs.items(), *skill.step_needs.items(), *skill.during.items()):
             self._ask(Var(call.robot, fluent), literal)
         for var, value in outcome(call, self).items():
             self._ask(var, value)

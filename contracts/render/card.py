@@ -55,6 +55,8 @@ def _param(param: Param, rules: Rules) -> str:
 def _behaviour(skill: Skill) -> Iterator[str]:
     if skill.needs:
         yield f"needs: {fluent_words(skill.needs)}"
+    if skill.step_needs:
+        yield f"needs as a step, not as a safe state: {fluent_words(skill.step_needs)}"
     if skill.effects:
         yield f"effect: {fluent_words(skill.effects)}"
     if skill.puts:

@@ -69,16 +69,16 @@ def _preparing(
     waiting: list[tuple[list[str], dict[str, FluentLiteral | None]]] = [([], start)]
     while waiting:
         names, state = waiting.pop(0)
-        missing = {f: v for f, v in skill.needs.items() if state.get(f) != v}
+        missing = {f: v for f, v in skill.all_needs.items() if state.get(f) != v}
         if not missing:
             return [Wish(wish.role, name, {}) for name in names]
         if len(names) < MAX_PREPARING:
             waiting += [
                 ([*names, other.name], {**state, **other.effects})
                 for other in kind.skills
-                if other.name not in names and all(state.get(f) == v for f, v in other.needs.items())
+                if other.name not in names and all(state.get(f) == v for f, v in other.all_needs.items())
             ]
-    wanted = ", ".join(f"{name} {str(value).lower()}" for name, value in skill.needs.items())
+    wanted = ", ".join(f"{name} {str(value).lower()}" for name, value in skill.all_needs.items())
     raise WishError(f"{wish.role}.{wish.skill} needs {wanted}, which no skill of a {kind.name} brings about from rest")
 
 

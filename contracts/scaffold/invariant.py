@@ -4,6 +4,7 @@ from collections.abc import Container, Iterator, Mapping
 
 from crew.contracts.contract import Condition, Contract, Never
 from crew.contracts.matching import needed_skills
+from crew.contracts.scaffold.cast import skill_of
 from crew.contracts.scaffold.wish import Wish
 from crew.contracts.site import Rules
 from crew.contracts.skill import FluentLiteral, Kind
@@ -31,8 +32,15 @@ def guards_of(
                 continue
             roles = {role: wish.role, **_others(contract, role, wish.role, kinds, rules)}
             guard = next((g for c in never.when if (g := _not(c, slots, roles)) is not None), None)
-            if guard is not None:
+            if guard is not None and not _needed(guard, wish, kinds):
                 yield guard
+
+
+def _needed(guard: Guard, wish: Wish, kinds: Mapping[str, Kind]) -> bool:
+    """Whether the skill itself asks for it already."""
+    role, _, fluent = guard.path.partition(".")
+    needs = skill_of(wish, kinds).all_needs if role == wish.role else {}
+    return fluent in needs and (needs[fluent] == guard.value) is not guard.negated
 
 
 def _matches(never: Never, args: Mapping[str, str]) -> bool:

@@ -6,10 +6,13 @@ import socket
 from collections.abc import AsyncIterator, Awaitable, Callable
 from typing import Any, TypeVar
 
+from crew.actors.robot.neighbours import neighbour_of
 from crew.adapter import AdapterConfig
 from crew.adapters.mavlink.adapter import MavlinkAdapter
 from crew.adapters.mavlink.writer import Permit
 from crew.clock import SimClock
+from crew.contracts.site import Separation
+from crew.library import load_kind
 from crew.sim.config import WorldConfig
 from crew.sim.world import World
 
@@ -33,9 +36,17 @@ def discs(world: World) -> tuple[tuple[float, float, float], ...]:
 
 
 class Lockstep:
-    """One world, one clock, an adapter for each robot."""
+    """One world, one clock, an adapter for each robot. `hears`: who is told where the others are, as on the bus."""
 
-    def __init__(self, *, seed: int = 0, faults: tuple[str, ...] = (), options: dict[str, Any] | None = None) -> None:
+    def __init__(
+        self,
+        *,
+        seed: int = 0,
+        faults: tuple[str, ...] = (),
+        options: dict[str, Any] | None = None,
+        hears: tuple[str, ...] = (),
+    ) -> None:
+        self._hears = hears
         ports = {name: free_port() for name in KINDS}
         links = {name: f"udp:127.0.0.1:{port}" for name, port in ports.items()}
         self.world = World(WorldConfig(seed=seed, faults=faults, links=links))
@@ -51,6 +62,7 @@ class Lockstep:
                     area=AREA,
                     origin=(origin.lat_deg, origin.lon_deg, origin.alt_m),
                     obstacles=discs(self.world),
+                    separation_m=Separation().told_m,
                 ),
                 self.clock,
             )
@@ -94,8 +106,18 @@ class Lockstep:
     async def step(self) -> None:
         self.world.advance(self.world.time_ns + SLICE_NS)
         await self._arrived()
+        self._meet()
         self.clock.advance(self.world.time_ns)
         await self._turns()
+
+    def _meet(self) -> None:
+        """What each robot tells of itself, to those that hear it."""
+        for name, adapter in self.adapters.items():
+            told = {fluent: reading.value for fluent, reading in adapter.fluents().items()}
+            neighbour = neighbour_of(name, load_kind(KINDS[name]), told)
+            for other in self._hears:
+                if other != name and neighbour is not None:
+                    self.adapters[other].meet(neighbour)
 
     async def _arrived(self) -> None:
         """Wait until everything that the world sent was received and handled."""

@@ -74,13 +74,15 @@ def iris(*, airborne: bool = False, swept: bool = False, at_ns: int = NOW_NS, **
     """The drone as last heard."""
     altitude_m = 5.0 if airborne else 0.0
     fluents: dict[str, FluentValue] = {"airborne": airborne, "moving": False, "at": Point(0.0, 0.0, altitude_m)}
-    fluents |= {"altitude": altitude_m, "swept": swept, "battery": 90.0}
+    fluents |= {"altitude": altitude_m, "swept": swept, "battery": 90.0, "descending": False, "clear_below": True}
     return robot("iris", QUADCOPTER.digest, at_ns, fluents, **changes)
 
 
 def tb3(*, at: Point = START, moving: bool = False, at_ns: int = NOW_NS, **changes: Any) -> RobotState:
     """The rover as last heard."""
-    return robot("tb3", ROVER.digest, at_ns, {"at": at, "moving": moving, "battery": 90.0}, **changes)
+    return robot(
+        "tb3", ROVER.digest, at_ns, {"at": at, "moving": moving, "battery": 90.0, "clear_above": True}, **changes
+    )
 
 
 def with_fluent(state: RobotState, name: str, value: FluentValue, source_ns: int) -> RobotState:

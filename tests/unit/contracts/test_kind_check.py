@@ -8,6 +8,7 @@ from msgspec.structs import replace
 from crew.contracts.kind_check import mistakes
 from crew.contracts.kinds.humanoid import HUMANOID
 from crew.contracts.kinds.quadruped import QUADRUPED
+from crew.contracts.kinds.rover import ROVER
 from crew.contracts.skill import Kind, Part, Published, SkillArgs, number
 from crew.errors import UsageError
 from crew.library import kind_names, load_kind
@@ -24,6 +25,11 @@ BY_LOOKING = Published(name="v", type="position", about=".", max_age_s=1.0, by=(
 def walking(**changes: Any) -> Kind:
     """The quadruped with a change of its first skill, `navigate`."""
     return replace(QUADRUPED, skills=(replace(QUADRUPED.skills[0], **changes), *QUADRUPED.skills[1:]))
+
+
+def driving_off(**changes: Any) -> Kind:
+    """The rover with a change of its first skill, `navigate_to`."""
+    return replace(ROVER, skills=(replace(ROVER.skills[0], **changes), *ROVER.skills[1:]))
 
 
 def placing(**changes: Any) -> Kind:
@@ -45,6 +51,7 @@ def test_what_is_installed_fits_together(name: str) -> None:
         (walking(may=({"legs": "none"},)), "may speaks of 'legs'"),
         (walking(effects={"at": "$goal"}), "effects at is $goal, but it takes no such argument"),
         (walking(effects={"moving": "no"}), "effects moving is 'no', but moving is a bool"),
+        (driving_off(effects={"clear_above": True}), "effects speaks of 'clear_above', which other robots change"),
         (walking(effects={"battery": True}), "effects battery is True, but battery is a number"),
         (walking(safe=True), "it is called safe, so it may need nothing"),
         (walking(reports=("requester",)), "it names value 'requester', which is not declared"),

@@ -22,7 +22,7 @@ def test_the_kinds_are_installed() -> None:
 @by_name
 def test_skills_speak_only_of_declared_fluents_and_arguments(kind: Kind) -> None:
     for skill in kind.skills:
-        spoken = {*skill.needs, *skill.effects, *skill.during, *(name for left in skill.may for name in left)}
+        spoken = {*skill.all_needs, *skill.effects, *skill.during, *(name for left in skill.may for name in left)}
         assert all(kind.fluent(name) for name in spoken), skill.name
         assert all(skill.param(low) and skill.param(high) for low, high in skill.ranges), skill.name
         assert all((param := skill.param(name)) and param.optional for form in skill.forms for name in form), skill.name

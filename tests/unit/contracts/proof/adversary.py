@@ -65,7 +65,7 @@ def _ready(call: Call, graph: Graph) -> Snapshot:
     kind = graph.model.rules.kind_of(call.robot)
     skill = None if kind is None else kind.skill(call.skill)
     assert skill is not None
-    wanted: dict[Var, FluentValue] = {Var(call.robot, fluent): value for fluent, value in skill.needs.items()}
+    wanted: dict[Var, FluentValue] = {Var(call.robot, fluent): value for fluent, value in skill.all_needs.items()}
     return graph.model.ground.snapshot(wanted)
 
 
