@@ -51,6 +51,8 @@ class Row(msgspec.Struct, frozen=True):
     way: Way
     writers: tuple[Role, ...]
     readers: tuple[Role, ...]
+    peers: bool = False
+    """A robot that reads it reads any robot's, for they keep clear of each other."""
 
 
 ORC, PLA, GAT, ROB = Role.ORCHESTRATOR, Role.PLANNER, Role.GATEWAY, Role.ROBOT
@@ -81,8 +83,7 @@ TABLE = (
     Row("{own}/alive", Way.ALIVE, (PLA, GAT, ROB, SIM, REC), (ORC, OPE, REC)),
     # robots
     Row("{robot}/card", Way.PUT, (ROB,), (ORC, OPE, REC)),
-    Row("{robot}/state", Way.PUT, (ROB,), (ORC, OPE, REC, GUE)),
-    Row("*/state", Way.PUT, (), (ROB,)),
+    Row("{robot}/state", Way.PUT, (ROB,), (ORC, OPE, REC, GUE, ROB), peers=True),
     Row("{robot}/event", Way.PUT, (ROB,), (ORC, OPE, REC)),
     Row("{robot}/value/*", Way.PUT, (ROB,), (ORC, OPE, REC)),
     # simulation
@@ -148,7 +149,8 @@ class Identity(msgspec.Struct, frozen=True):
         return [*found, f"crew/{self.crew}/**"] if any(Role.RECORDER in row.readers for row in rows) else found
 
     def _key(self, row: Row, *, writes: bool) -> str:
-        robot = self.own if self.role is Role.ROBOT else ANY
+        peers = row.peers and not writes
+        robot = self.own if self.role is Role.ROBOT and not peers else ANY
         return f"crew/{self.crew}/{row.key.replace(ROBOTS, robot).replace(OWN, self.own if writes else ANY)}"
 
 

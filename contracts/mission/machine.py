@@ -132,9 +132,15 @@ def _decided(state: MissionState, event: ev.Decided, contracts: Mapping[str, Con
         return ask(state, decision)
     refused = replace(record, phase=StepPhase.REFUSED, code=refusal.code, detail=refusal.message)
     state = replace(put(state, decision.step, refused), refusal=refusal)
-    return (
-        halt(state, refusal.message, contracts) if state.sent_any else end_now(state, Phase.REJECTED, refusal.message)
-    )
+    if state.sent_any or _aborts(state, contracts):
+        return halt(state, refusal.message, contracts)
+    return end_now(state, Phase.REJECTED, refusal.message)
+
+
+def _aborts(state: MissionState, contracts: Mapping[str, Contract]) -> bool:
+    """Whether this is an abort: one that is refused makes its robots safe all the same."""
+    assert state.instance is not None
+    return contracts[state.instance.contract].preempts
 
 
 def _outcome(state: MissionState, event: ev.Outcome, contracts: Mapping[str, Contract]) -> Result:

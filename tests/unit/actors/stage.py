@@ -12,7 +12,7 @@ from msgspec.structs import replace
 
 from crew.actors.robot import lost
 from crew.actors.robot.actor import RobotActor
-from crew.adapter import Adapter, Place, Reading, StopLatch
+from crew.adapter import Adapter, Neighbour, Place, Reading, StopLatch
 from crew.bus.fabric import MemoryFabric
 from crew.bus.memory import MemoryBus
 from crew.bus.port import Bus, Declaration, Qos
@@ -50,10 +50,14 @@ class FakeAdapter:
         self.sick = ""
         self.known: dict[str, FluentValue] = {"moving": False, "at": Point(*SPAWN), "battery": 90.0}
         self.published: dict[str, ValueReading] = {}
+        self.met: list[Neighbour] = []
 
     async def connect(self) -> None:
         if self.missing:
             raise self.missing.pop(0)
+
+    def meet(self, neighbour: Neighbour) -> None:
+        self.met.append(neighbour)
 
     async def close(self) -> None:
         self.did.append("close")

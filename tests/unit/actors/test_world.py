@@ -290,3 +290,15 @@ def test_a_mission_without_robots_runs_at_once() -> None:
 
 def _event(what: str, sequence: int, robot: str = "tb3", boot_id: str = "b1") -> RobotEvent:
     return RobotEvent(robot=robot, boot_id=boot_id, at_ns=1, what=what, mission="m1", sequence=sequence)
+
+
+def test_whether_robots_keep_clear_is_the_orchestrators_own_finding(world: WorldFold) -> None:
+    """A robot's own word for it is not taken, neither for yes nor for no."""
+    place = Point(0.0, 0.0)
+    drone: dict[str, FluentValue] = {"at": place, "airborne": True, "descending": True, "clear_below": True}
+    world.take_state(state("iris", fluents=drone), now_ns=12)
+    assert world.snapshot({}).robots["iris"].fluents["clear_below"].value is True, "nobody else was heard of"
+    world.take_state(state(fluents={"at": place, "moving": False, "clear_above": True}), now_ns=12)
+    robots = world.snapshot({}).robots
+    assert robots["iris"].fluents["clear_below"].value is False
+    assert robots["tb3"].fluents["clear_above"].value is False

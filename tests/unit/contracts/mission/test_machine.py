@@ -207,11 +207,21 @@ def test_a_failure_cancels_what_runs_beside_it(rules: Rules) -> None:
 
 
 def test_the_first_refusal_with_nothing_sent_rejects(rules: Rules) -> None:
-    mission = b.executing(b.ABORT, b.ABORT_PLAN, rules, phase=Phase.WAITING)
-    state, effects = after(mission, rules, ev.Leased(at_ns=AT_NS))
+    beside = b.executing(b.ABORT, b.ABORT_PLAN, rules, phase=Phase.WAITING)
+    others = {**rules.contracts, "abort": replace(rules.contracts["abort"], preempts=False)}
+    rules = replace(rules, contracts=others)
+    state, effects = after(beside, rules, ev.Leased(at_ns=AT_NS))
     assert effects == (ev.Authorise(step="land"), ev.Authorise(step="stop"))
     state, effects = after(state, rules, decided("land", b.LAND, STALE))
     assert (state.phase, state.refusal, effects) == (Phase.REJECTED, STALE, (ev.Finish(),))
+    assert after(state, rules, decided("stop", b.STOP)) == (state, ())
+
+
+def test_an_abort_that_is_refused_makes_its_robots_safe(rules: Rules) -> None:
+    state, _ = after(b.executing(b.ABORT, b.ABORT_PLAN, rules, phase=Phase.WAITING), rules, ev.Leased(at_ns=AT_NS))
+    state, effects = after(state, rules, decided("land", b.LAND, STALE))
+    assert (state.phase, state.refusal) == (Phase.HALTING, STALE)
+    assert effects == (ev.MakeSafe(role="searcher"), ev.MakeSafe(role="responder"))
     assert after(state, rules, decided("stop", b.STOP)) == (state, ())
 
 
