@@ -85,17 +85,20 @@ class Dispatcher:
         if flight is None:
             return
         flight.void = True
-        card = self._world.cards[effect.robot]
-        message = CancelSkill(
-            mission=mission.id,
-            sequence=effect.sequence,
-            robot=effect.robot,
-            epoch=self._epoch,
-            boot_id=card.boot_id,
-        )
-        signed = permit(message, self._keys.crew, self._key)
-        self._bus.put(self._keys.act_cancel(effect.robot), signed, qos=Qos.ACTUATION)
+        self._put_cancel(effect.robot, mission.id, effect.sequence)
         self._spawn(mission.id, self._await_cancelled(flight))
+
+    def end_orphan(self, robot: str, running: str) -> None:
+        """Cancel what a robot still carries out for a mission that is over: nobody waits for its end."""
+        mission, _, sequence = running.rpartition("/")
+        if sequence.isdecimal():
+            self._put_cancel(robot, mission, int(sequence))
+
+    def _put_cancel(self, robot: str, mission: str, sequence: int) -> None:
+        boot_id = self._world.cards[robot].boot_id
+        message = CancelSkill(mission=mission, sequence=sequence, robot=robot, epoch=self._epoch, boot_id=boot_id)
+        signed = permit(message, self._keys.crew, self._key)
+        self._bus.put(self._keys.act_cancel(robot), signed, qos=Qos.ACTUATION)
 
     def hear(self, event: RobotEvent) -> None:
         """A robot's word on a dispatch of ours: only its own robot and boot count."""

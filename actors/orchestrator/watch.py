@@ -39,6 +39,7 @@ class CrewWatch:
         self._bus, self._keys, self._rules, self._world = bus, keys, rules, world
         self._ledger, self._shell, self._epoch, self._key = ledger, shell, epoch, key
         self._lost: dict[str, str] = {}
+        self._orphans: dict[str, str] = {}
         self._told_still: set[str] = set()
         self._beat_now = asyncio.Event()
         self._stopped_ns = -SAME_STOP_NS
@@ -111,6 +112,17 @@ class CrewWatch:
         elif before and not why:
             self._ledger.note("found", f"{name} is heard")
         self._lost[name] = why
+        if not why:
+            self._end_orphan(name, self._world.running(name))
+
+    def _end_orphan(self, name: str, running: str) -> None:
+        """A robot that was away may come back with what it was doing, for a mission that has ended meanwhile."""
+        mission = running.rpartition("/")[0]
+        if not running or self._orphans.get(name) == running or any(m.id == mission for m in self._shell.open):
+            return
+        self._orphans[name] = running
+        self._ledger.note("orphan", f"{name} still carries out {running}, of a mission that is over: cancelled")
+        self._shell.dispatcher.end_orphan(name, running)
 
     def _hold_stop(self) -> None:
         """Repeat a stop until every robot that is there has confirmed it; adopt one that did not come here."""

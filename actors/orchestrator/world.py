@@ -145,7 +145,7 @@ class WorldFold:
             boot_id=card.boot_id,
             unavailable=lost or state.unavailable,
             stopped=state.stopped,
-            running="" if self._ended.get(name) == state.running else state.running,
+            running=self.running(name),
             lease=lease,
             fluents={
                 fluent: Stamped(value, stamps[fluent], received_ns)
@@ -153,6 +153,11 @@ class WorldFold:
                 if fluent in stamps
             },
         )
+
+    def running(self, name: str) -> str:
+        """`<mission>/<sequence>` of what a robot says that it carries out, unless its end was heard; or empty."""
+        state = self._states.get(name)
+        return "" if state is None or self._ended.get(name) == state.running else state.running
 
     def status(self, leases: Mapping[str, str]) -> tuple[RobotStatus, ...]:
         """Every robot, for people."""

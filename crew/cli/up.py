@@ -118,7 +118,7 @@ class Losses:
 
 def _say_change(change: Change, pid: int) -> None:
     if change.frozen:
-        what = f"process {pid} is there, and nothing was heard of it for {change.for_s:.1f} s"
+        what = f"process {pid} is there, and is not heard"
         say(coloured(f"{change.name} is frozen ({what}): {_meaning(change.name)}", "red"))
     else:
         say(coloured(f"{change.name} answers again, after {change.for_s:.1f} s", "amber"))

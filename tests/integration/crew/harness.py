@@ -46,7 +46,7 @@ class Desk:
         self.home = Home(folder / "home")
         self.runs = folder / "runs"
         self._spawned: list[Up] = []
-        self.env = {**os.environ, "CREW_HOME": str(self.home.path), "PYTHONUNBUFFERED": "1"}
+        self.env = {**os.environ, "CREW_HOME": str(self.home.path), "PYTHONUNBUFFERED": "1", "PYTHONFAULTHANDLER": "1"}
 
     def crew(self, *args: str, timeout_s: float = MISSION_S) -> "subprocess.CompletedProcess[str]":
         """Run a command to its end."""
@@ -148,15 +148,15 @@ class Up:
         self.process.send_signal(number)
 
     def end(self, seconds: float = 10.0) -> int:
-        """End as Ctrl-C does; the exit code."""
+        """End as Ctrl-C does; the exit code. AssertionError with where it stands if it does not."""
         if self.process.poll() is None:
             self.process.send_signal(signal.SIGINT)
         try:
             return self.process.wait(seconds)
         except subprocess.TimeoutExpired:
-            self.process.kill()
+            self.process.send_signal(signal.SIGABRT)
             self.process.wait()
-            raise
+        raise AssertionError(f"not down after {seconds} s: {self.said[-6000:]}")
 
 
 def children_of(pid: int) -> dict[str, int]:

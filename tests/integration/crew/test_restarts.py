@@ -90,30 +90,32 @@ async def test_a_stop_outlives_the_orchestrator_and_every_robot_at_once(stopped:
 def kept(desk: Desk) -> Iterator[Desk]:
     """A crew was stopped on the command line and brought down."""
     with desk.up():
-        stop = desk.crew("stop", "--reason", "end of the shift")
-        assert stop.returncode == 0, stop.stdout + stop.stderr
+        _stop(desk, "end of the shift")
     yield desk
     desk.home.stop(NAME).unlink(missing_ok=True)
 
 
-async def test_a_stop_outlives_the_whole_crew(kept: Desk) -> None:
+def _stop(desk: Desk, reason: str) -> None:
+    stop = desk.crew("stop", "--reason", reason)
+    assert stop.returncode == 0, stop.stdout + stop.stderr
+
+
+async def test_a_stop_outlives_the_whole_crew_until_it_is_released_or_lifted_by_its_owner(kept: Desk) -> None:
+    demo = kept.demo("--request", SHORT_DRIVE)
+    assert (demo.result["outcome"], demo.result["code"]) == ("rejected", "stopped")
     with kept.up() as up:
         assert "STOPPED by operator: end of the shift" in up.said
         async with watching(up.running) as watch:
             await latched(watch)
             refused = await watch.mission(SHORT_DRIVE)
             assert (refused.outcome, refused.code) == ("rejected", "stopped")
-            assert kept.crew("reset").returncode == 0
+            reset = kept.crew("reset")
+            assert reset.returncode == 0, reset.stdout
+            assert "stop 1 by operator: end of the shift" in reset.stdout
             await watch.drives()
         notes = [r.text for _, r in journal(up.run) if isinstance(r, NoteRecord) and r.what == "stop"]
         assert notes == ["stop 1 is still in force for iris, tb3"]
-    with kept.up() as up:
-        assert "STOPPED" not in up.said
-
-
-def test_a_stop_that_is_kept_is_lifted_by_its_owner_while_nothing_runs(kept: Desk) -> None:
-    demo = kept.demo("--request", SHORT_DRIVE)
-    assert (demo.result["outcome"], demo.result["code"]) == ("rejected", "stopped")
+        _stop(kept, "once more")
     lifted = kept.crew("reset", "--crew", NAME)
     assert lifted.returncode == 0
     assert "lifted" in lifted.stdout

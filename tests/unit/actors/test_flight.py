@@ -21,6 +21,7 @@ from crew.errors import JournalError
 from crew.keys import Keys
 from crew.mailbox import Events, Letter, letters
 from crew.messages import CancelSkill, Dispatch, RobotCard, RobotEvent
+from crew.permit import permit_problem
 from crew.signing import SigningKey
 from crew.wire import Message
 from tests.unit.actors.stage import air_ground
@@ -259,3 +260,18 @@ async def test_an_ended_missions_flights_are_forgotten(desk: Desk) -> None:
     desk.dispatcher.forget("m1")
     desk.says("succeeded")
     assert desk.fed == []
+
+
+async def test_what_a_robot_carries_out_for_a_mission_that_is_over_is_cancelled_with_a_permit(desk: Desk) -> None:
+    desk.dispatcher.end_orphan("tb3", "m7/4")
+    (cancel,) = await desk.settle()
+    assert isinstance(cancel, CancelSkill)
+    assert (cancel.mission, cancel.sequence, cancel.robot, cancel.boot_id, cancel.epoch) == ("m7", 4, "tb3", "b1", 3)
+    assert permit_problem(cancel, KEYS.crew, desk.key.public) is None
+    assert desk.fed == [], "nobody waits for it"
+
+
+@pytest.mark.parametrize("words", ["", "m7", "m7/", "m7/x", "m7/-1"])
+async def test_a_robots_words_that_name_no_dispatch_cancel_nothing(desk: Desk, words: str) -> None:
+    desk.dispatcher.end_orphan("tb3", words)
+    assert await desk.settle() == []
