@@ -19,6 +19,8 @@ HEARTBEAT_EVERY_S = 0.2
 WATCH_EVERY_S = 0.2
 SAME_STOP_NS = 500_000_000
 """A stop so soon after another that nobody was released from is that one repeated."""
+STOOD_STILL_NS = 2_000_000_000
+"""Between two looks: for so long no heartbeat went out, and robots that miss it for 2 s end what they do."""
 UNHEARD = "not heard yet"
 
 
@@ -96,13 +98,24 @@ class CrewWatch:
 
     async def _watch_robots(self) -> None:
         """Notice robots that are lost, a bus that is lost, and whom a stop has not reached or has left."""
+        looked_ns = WALL.now_ns()
         while True:
+            looked_ns, before_ns = WALL.now_ns(), looked_ns
+            if looked_ns - before_ns > STOOD_STILL_NS:
+                self._stood_still((looked_ns - before_ns) / 1e9)
             self._world.bus_lost = not self._bus.connected
             for spec in self._rules.crew.robots:
                 self._watch_robot(spec.name)
             self._hold_stop()
             self.lift_stop()
             await WALL.sleep(WATCH_EVERY_S)
+
+    def _stood_still(self, seconds: float) -> None:
+        """The orchestrator itself was frozen: every robot has given it up, and what it said meanwhile may be lost."""
+        why = f"the orchestrator stood still for {seconds:.1f} s: robots have done what they declare for its loss"
+        self._ledger.note("stood_still", why)
+        for spec in self._rules.crew.robots:
+            self._shell.dispatcher.lose(spec.name, why, "orchestrator_lost")
 
     def _watch_robot(self, name: str) -> None:
         why, before = self._world.lost(name), self._lost.get(name, UNHEARD)

@@ -4,11 +4,12 @@ import asyncio
 import math
 import os
 import signal
-from collections.abc import AsyncIterator, Iterator
+from collections.abc import AsyncIterator, Iterator, Sequence
 from contextlib import asynccontextmanager
 
 import pytest
 
+from crew.launch.ready import query_status
 from tests.integration.crew.harness import FAR_DRIVE, SEARCH, SHORT_DRIVE, Desk, Up, Watch, alive, intents, watching
 
 BOTH = ("iris", "tb3")
@@ -58,6 +59,18 @@ async def drives_again(watch: Watch) -> None:
     raise AssertionError("the rover does not drive again")
 
 
+async def halted(watch: Watch, requests: Sequence[str]) -> None:
+    """Missions have halted by the status: what is told of them while the bus is lost to the orchestrator is lost."""
+    phases: dict[str, str] = {}
+    for _ in range(120):
+        status = await query_status(watch.bus, watch.keys, timeout_s=1.0)
+        phases = {} if status is None else {m.mission: m.phase for m in status.missions}
+        if [phases.get(watch.mission_of(request)) for request in requests] == ["halted"] * len(requests):
+            return
+        await asyncio.sleep(0.5)
+    raise AssertionError(f"not halted: {phases}")
+
+
 async def both_moving(watch: Watch) -> tuple[str, str]:
     """The drone searches and the rover drives."""
     search, drive = watch.ask(SEARCH), watch.ask(FAR_DRIVE)
@@ -104,9 +117,8 @@ async def test_robots_of_a_frozen_router_make_themselves_safe_and_missions_halt(
     x, y, *_ = await watch.standing("tb3")
     assert math.dist((x, y), (9.0, -5.5)) > 1.0, "it did not go on without its orchestrator"
     await watch.landed("iris")
+    await halted(watch, requests)
     await drives_again(watch)
-    phases = {m.mission: m.phase for m in (await watch.status()).missions}
-    assert [phases[watch.mission_of(request)] for request in requests] == ["halted", "halted"]
 
 
 async def test_missions_in_a_frozen_simulation_halt_and_its_robots_stop_when_it_wakes(watch: Watch, up: Up) -> None:
@@ -136,9 +148,7 @@ async def test_robots_of_a_frozen_orchestrator_make_themselves_safe_and_it_sends
         status = await asyncio.to_thread(desk.crew, "status")
         assert status.returncode == 1
         assert "the orchestrator does not answer" in status.stdout
-    for request in requests:
-        assert (await watch.ended(request)).outcome in ("halted", "completed")
-    assert "halted" in {watch.of(request)[-1].outcome for request in requests}
+    await halted(watch, requests)
     await watch.standing("tb3")
     assert len(intents(up.run)) == sent, "nothing more was sent for them"
     await drives_again(watch)
