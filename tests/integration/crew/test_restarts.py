@@ -1,12 +1,13 @@
 """A stop outlives everything: the robot, the orchestrator, the whole crew. Only the signed reset ends it."""
 
+import asyncio
 from collections.abc import AsyncIterator, Iterator
 
 import pytest
 
 from crew.bus.port import Qos
 from crew.launch.live import OPERATOR
-from crew.messages import Stop
+from crew.messages import Stop, StopStatus
 from crew.records import NoteRecord
 from crew.release import signed_reset
 from crew.signing import load_or_create_key
@@ -36,6 +37,18 @@ async def latched(watch: Watch) -> None:
     await watch.until(lambda: all(watch.states[r].stopped and watch.states[r].still for r in BOTH), why="latched")
 
 
+async def confirmed(watch: Watch) -> StopStatus:
+    """The orchestrator's account of the stop, once every robot has confirmed it."""
+    for _ in range(200):
+        status = await watch.status()
+        assert status.stopped
+        assert status.stop is not None
+        if not status.stop.treat_as_moving:
+            return status.stop
+        await asyncio.sleep(0.1)
+    raise AssertionError(f"not confirmed: {status.stop}")
+
+
 async def boot_after(watch: Watch, robot: str, boot: str) -> None:
     await watch.until(lambda: watch.states[robot].boot_id != boot, why=f"{robot} is back")
 
@@ -57,10 +70,8 @@ async def test_a_robot_restarted_while_the_crew_is_stopped_comes_up_latched(stop
     await boot_after(watch, "tb3", boot)
     assert watch.states["tb3"].stopped or watch.states["tb3"].unavailable, "it takes nothing before it knows"
     await latched(watch)
-    status = await watch.status()
-    assert status.stopped
-    assert status.stop is not None
-    assert (status.stop.by, status.stop.reason, status.stop.latched) == ("operator", "smoke", BOTH)
+    account = await confirmed(watch)
+    assert (account.by, account.reason, account.latched) == ("operator", "smoke", BOTH)
     assert (await watch.mission(SHORT_DRIVE)).code == "stopped"
     await released(watch, desk)
     boot = watch.states["tb3"].boot_id
@@ -79,9 +90,8 @@ async def test_a_stop_outlives_the_orchestrator_and_every_robot_at_once(stopped:
     for robot in BOTH:
         await boot_after(watch, robot, boots[robot])
     await latched(watch)
-    status = await watch.status()
-    assert status.stop is not None
-    assert (status.stop.reason, status.stop.treat_as_moving) == ("smoke", ())
+    account = await confirmed(watch)
+    assert (account.reason, account.latched) == ("smoke", BOTH)
     assert (await watch.mission(SHORT_DRIVE)).code == "stopped"
     await released(watch, desk)
 
