@@ -6,6 +6,7 @@ from crew.actors.specs import PlannerChoice
 from crew.contracts.render.prompt import Arm
 from crew.home import Home
 from crew.library import load_rules
+from crew.study.figures import PAGE
 from crew.study.observation import Observation
 from crew.study.scenario_file import SHIPPED, load_scenarios
 from crew.study.study import Wanted, run_study
@@ -34,6 +35,7 @@ def _study(crew: str, scenario: str, out: Path) -> dict[Arm, Observation]:
     for observation in seen.values():
         report = verify_run(out / observation.run, Home(out / STATE))
         assert report.holds, report.problems
+        assert f'href="{observation.run}/report.html"' in (out / PAGE).read_text(), "the figures lead to the run"
     return seen
 
 

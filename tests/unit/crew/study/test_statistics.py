@@ -4,7 +4,7 @@ import math
 from math import comb
 
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from crew.errors import UsageError
@@ -35,6 +35,7 @@ def test_fisher_of_nothing_is_unknown() -> None:
     assert math.isnan(fisher((0, 0), (3, 4)))
 
 
+@settings(deadline=None)
 @given(st.integers(1, 9), st.integers(1, 9), st.data())
 def test_fisher_is_the_sum_over_all_tables_that_are_no_likelier(n: int, m: int, data: st.DataObject) -> None:
     a, b = data.draw(st.integers(0, n)), data.draw(st.integers(0, m))
@@ -43,6 +44,7 @@ def test_fisher_is_the_sum_over_all_tables_that_are_no_likelier(n: int, m: int, 
     assert fisher((a, n), (b, m)) == pytest.approx(exact, rel=1e-9)
 
 
+@settings(deadline=None)
 @given(st.integers(1, 300), st.data())
 def test_wilson_solves_its_own_equation(trials: int, data: st.DataObject) -> None:
     """At each end the observed share lies exactly 1.96 standard errors of that end's own proportion away."""

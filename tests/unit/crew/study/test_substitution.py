@@ -53,7 +53,7 @@ async def test_the_embedded_planner_carries_names_on_and_no_plan_is_accepted(cre
 
 async def test_more_context_makes_errors_more_plausible_and_the_gate_refuses_all() -> None:
     backends: list[tuple[Context, int, Backend]] = [
-        (context, seed, FallibleBackend(INDOOR, context, seed)) for context in Context for seed in range(4)
+        (context, seed, FallibleBackend(INDOOR, context, seed)) for context in Context for seed in range(2)
     ]
     study = await run_substitution(INDOOR, "fallible", backends)
     assert study.passed == ()
