@@ -29,7 +29,7 @@ def evaluate(
     seed: Annotated[int, typer.Option(help="First seed of the simulation's noise, and of the fallible planner.")] = 0,
     seeds: Annotated[int, typer.Option(help="How many seeds, counted up from --seed.")] = 1,
     out: Annotated[Path, typer.Option(help="Folder of the study; what it holds already is not run again.")] = Path(
-        "runs/study"
+        "runs/eval"
     ),
     scenarios: Annotated[
         Path | None, typer.Option(help="Folder of scenario files; the shipped ones if left out.")
