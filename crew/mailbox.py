@@ -64,6 +64,8 @@ class Mailbox(ABC, Generic[T]):
         self._armed = False
         self._closed = False
         self._waiter: asyncio.Future[None] | None = None
+        self._consumer: Callable[[T], None] | None = None
+        self._consumed: asyncio.Future[None] | None = None
         self._batch: deque[Sample] = deque()
         self._turn_due = False
 
@@ -93,6 +95,18 @@ class Mailbox(ABC, Generic[T]):
         """What is there now, at most 64 items; empty if nothing is."""
         self._refill()
         return list(iter(self._next_item, None))
+
+    async def each(self, consumer: Callable[[T], None]) -> None:
+        """Call `consumer` with every item within the loop's very wakeup that brings it, for what is in a hurry.
+
+        Returns when the mailbox is closed; raises what the consumer raises.
+        """
+        self._consumer, self._consumed = consumer, self._loop.create_future()
+        try:
+            self._consume()
+            await self._consumed
+        finally:
+            self._consumer = self._consumed = None
 
     def __aiter__(self) -> Self:
         return self
@@ -139,8 +153,24 @@ class Mailbox(ABC, Generic[T]):
                 raise
 
     def _release(self) -> None:
+        self._consume()
         if self._waiter is not None and not self._waiter.done():
             self._waiter.set_result(None)
+
+    def _consume(self) -> None:
+        """Hand one batch to the consumer, if there is one; the loop gets a turn before the next."""
+        consumer, consumed = self._consumer, self._consumed
+        if consumer is None or consumed is None or consumed.done():
+            return
+        try:
+            if self._refill():
+                while (item := self._next_item()) is not None:
+                    consumer(item)
+                self._loop.call_soon(self._consume)
+            elif self._closed:
+                consumed.set_result(None)
+        except Exception as error:
+            consumed.set_exception(error)
 
     async def _woken(self) -> None:
         """Wait for the next wakeup. The caller looked, on the loop, and found nothing."""

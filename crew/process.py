@@ -24,6 +24,9 @@ STOP_GRACE_S = 0.5
 EXIT_STUCK = 75
 """Exit code of a child that did not end within the grace."""
 
+SWITCH_S = 0.001
+"""How long a busy loop may keep the interpreter from a thread of the bus, such as the one that stops a robot."""
+
 _PR_SET_PDEATHSIG = 1
 
 
@@ -77,6 +80,7 @@ def run_child(main: Callable[[ChildContext], Awaitable[None]]) -> NoReturn:
     To be called on the main thread, from `if __name__ == "__main__"`. Arguments come from the supervisor.
     """
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    sys.setswitchinterval(SWITCH_S)
     control_fd, parent_pid, spec_path = _arguments()
     _die_with_parent(parent_pid)
     context = ChildContext(socket.socket(fileno=control_fd), spec_path)

@@ -118,7 +118,7 @@ class Orchestrator:
         async with asyncio.TaskGroup() as self._group:
             self._group.create_task(self._hear_robots(robots))
             self._group.create_task(self._hear_values(values))
-            self._group.create_task(self._hear_events(events))
+            self._group.create_task(events.each(self._hear_event))
             self._group.create_task(self._hear_people(people))
             self._group.create_task(self._desk.run())
             self._group.create_task(self._watch.run())
@@ -148,16 +148,15 @@ class Orchestrator:
                 if mission.instance is not None and value.robot in mission.instance.roles.values():
                     self._announcer.value(mission, value.reading, value.robot)
 
-    async def _hear_events(self, box: Events[Letter[RobotEvent]]) -> None:
-        async for letter in box:
-            event = letter.message
-            if not self._own(letter, event.robot):
-                continue
-            self._world.take_event(event)
-            if event.mission:
-                self.shell.dispatcher.hear(event)
-            else:
-                self._ledger.note(event.what, f"{event.robot}: {event.what} {event.detail}".strip())
+    def _hear_event(self, letter: Letter[RobotEvent]) -> None:
+        event = letter.message
+        if not self._own(letter, event.robot):
+            return
+        self._world.take_event(event)
+        if event.mission:
+            self.shell.dispatcher.hear(event)
+        else:
+            self._ledger.note(event.what, f"{event.robot}: {event.what} {event.detail}".strip())
 
     def _own(self, letter: Letter[Any], robot: str) -> bool:
         """Whether a robot speaks of itself on a key of its own; counted as foreign if not."""

@@ -131,8 +131,7 @@ class RobotActor:
                 group.create_task(self._stop.run())
                 group.create_task(self._watch.run())
                 group.create_task(self._neighbours.run())
-                async for letter in self._commands:
-                    self._handle(letter.message, group)
+                await self._commands.each(lambda letter: self._handle(letter.message, group))
         finally:
             for declaration in self._declared:
                 declaration.close()

@@ -27,7 +27,7 @@ def main() -> int:
         for what, value, limit, unit, fine in SECTIONS[name]():
             missed += not fine
             print(
-                f"{'ok  ' if fine else 'MISS'}  {what:58} {value:9.2f} {unit:4} (target {limit:g} {unit})", flush=True
+                f"{'ok  ' if fine else 'MISS'}  {what:66} {value:9.2f} {unit:4} (target {limit:g} {unit})", flush=True
             )
     return 1 if missed else 0
 
@@ -67,12 +67,13 @@ def stops() -> Iterator[Row]:
 
 def round_trips() -> Iterator[Row]:
     """A dispatch beside raw Zenoh."""
-    raw_us, dispatch_us = roundtrip.measure(1000)
-    yield at_most(
-        "dispatch to accepted, locked / raw Zenoh, open router, p50", median(dispatch_us) / median(raw_us), 1.9, "x"
-    )
-    yield at_most("  raw Zenoh round trip, p50", median(raw_us), 5000, "us")
-    yield at_most("  dispatch to accepted, p50", median(dispatch_us), 5000, "us")
+    times = roundtrip.measure(1000)
+    floor_us, dispatch_us = median(times.raw), median(times.dispatch)
+    signed_us = median(a + b for a, b in zip(times.dispatch, times.signature, strict=True))
+    yield at_most("dispatch's put to accepted, locked / raw Zenoh, open router, p50", dispatch_us / floor_us, 1.9, "x")
+    yield at_most("  with the signature, which is made before the intent is written", signed_us / floor_us, 2.2, "x")
+    yield at_most("  raw Zenoh round trip, p50", floor_us, 5000, "us")
+    yield at_most("  dispatch's put to accepted, p50", dispatch_us, 5000, "us")
 
 
 def recording() -> Iterator[Row]:
@@ -98,7 +99,7 @@ def proofs() -> Iterator[Row]:
     total_s = 0.0
     for contract, seconds, states in proof.measure():
         total_s += seconds
-        print(f"      {contract:58} {seconds:9.2f} s    ({states} states)", flush=True)
+        print(f"      {contract:66} {seconds:9.2f} s    ({states} states)", flush=True)
     yield at_most("all shipped contracts proved, one mission", total_s, 10, "s")
 
 

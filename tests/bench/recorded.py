@@ -74,7 +74,7 @@ async def _measure(rounds: int) -> tuple[list[float], list[float]]:
                         await _draws(folder / FILE, teller)
                     for number in range(rounds + WARM_UP):
                         teller.tell()
-                        taken = await trips.trip()
+                        taken, _ = await trips.trip()
                         if number >= WARM_UP:
                             times[records].append(taken)
                     if records:

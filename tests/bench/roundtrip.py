@@ -9,6 +9,7 @@ import tempfile
 import threading
 import time
 from pathlib import Path
+from typing import NamedTuple
 
 import uvloop
 import zenoh
@@ -42,14 +43,23 @@ BEAT_EVERY_NS = 500_000_000
 """Well within the time after which a robot takes its orchestrator for lost, on a machine that is busy as well."""
 
 
-def measure(rounds: int) -> tuple[list[float], list[float]]:
-    """Round trips in microseconds: raw Zenoh, and dispatch to accepted."""
+class Times(NamedTuple):
+    """Microseconds, round by round."""
+
+    raw: list[float]
+    dispatch: list[float]
+    """From the put of a signed dispatch to its accepted event."""
+    signature: list[float]
+
+
+def measure(rounds: int) -> Times:
+    """Raw Zenoh and dispatches, in turns."""
     os.environ["PYTHONPATH"] = str(Path(__file__).parents[2])
     with asyncio.Runner(loop_factory=uvloop.new_event_loop) as runner:
         return runner.run(_measure(rounds))
 
 
-async def _measure(rounds: int) -> tuple[list[float], list[float]]:
+async def _measure(rounds: int) -> Times:
     floor = f"tcp/127.0.0.1:{free_tcp_port()}"
     with tempfile.TemporaryDirectory() as folder:
         certificates = Path(folder) / "certificates"
@@ -114,6 +124,9 @@ class Trips:
         self._events: Events[Letter[RobotEvent]] = Events(letters(RobotEvent), capacity=1024, on_lost=print)
         bus.subscribe(KEYS.robot_cards, self._cards)
         bus.subscribe(KEYS.robot_events, self._events)
+        self._hearing = asyncio.ensure_future(self._events.each(self._hear))
+        self._ended: asyncio.Future[None] = asyncio.get_running_loop().create_future()
+        self._accepted_ns = 0
         self._publisher = bus.publisher(KEYS.act(ROBOT, "stop"), qos=Qos.ACTUATION)
         self._contract = load_rules("air_ground").contracts["dispatch_only"].digest
         self._number = self._beats = 0
@@ -134,40 +147,47 @@ class Trips:
         self._beats += 1
         self._beat_due_ns = time.monotonic_ns() + BEAT_EVERY_NS
 
-    async def trip(self) -> float:
-        """Microseconds from the put to the accepted event."""
+    async def trip(self) -> tuple[float, float]:
+        """Microseconds from the put to the accepted event, and for the signature before.
+
+        The orchestrator signs a dispatch before it commits the intent, and puts it once that is on disk.
+        """
         self._number += 1
         dispatch = _dispatch(self._number, self._boot, self._contract)
         if time.monotonic_ns() >= self._beat_due_ns:
             self.beat()
             await asyncio.sleep(0.01)  # on its way before the clock starts
         began_ns = time.perf_counter_ns()
-        self._publisher.put(permit(dispatch, KEYS.crew, KEY))
-        return (await _accepted(self._events, self._number) - began_ns) / 1000
+        signed = permit(dispatch, KEYS.crew, KEY)
+        put_ns = time.perf_counter_ns()
+        self._ended = asyncio.get_running_loop().create_future()
+        self._publisher.put(signed)
+        await self._ended
+        return (self._accepted_ns - put_ns) / 1000, (put_ns - began_ns) / 1000
+
+    def _hear(self, letter: Letter[RobotEvent]) -> None:
+        """The robot's word, as the orchestrator hears it: within the wakeup that brings it."""
+        event = letter.message
+        if event.sequence == self._number and event.what == "accepted":
+            self._accepted_ns = time.perf_counter_ns()
+        elif event.sequence == self._number and event.what == "succeeded":
+            self._ended.set_result(None)
+        elif event.mission and not self._ended.done():
+            self._ended.set_exception(RuntimeError(f"the robot answered {event.what}: {event.detail}"))
 
 
-async def _interleave(bus: ZenohBus, raw: RawPing, rounds: int) -> tuple[list[float], list[float]]:
+async def _interleave(bus: ZenohBus, raw: RawPing, rounds: int) -> Times:
     dispatches = Trips(bus)
     payload = await dispatches.ready()
-    floors, trips = [], []
-    for _ in range(rounds + WARM_UP):
-        floors.append(await asyncio.to_thread(raw.ping, payload))
-        trips.append(await dispatches.trip())
-    return floors[WARM_UP:], trips[WARM_UP:]
-
-
-async def _accepted(events: Events[Letter[RobotEvent]], number: int) -> int:
-    """When the accepted event was in hand; returns once the dispatch has ended."""
-    accepted_ns = 0
-    async for letter in events:
-        event = letter.message
-        if event.sequence == number and event.what == "accepted":
-            accepted_ns = time.perf_counter_ns()
-        elif event.sequence == number and event.what == "succeeded":
-            return accepted_ns
-        elif event.mission:
-            raise RuntimeError(f"the robot answered {event.what}: {event.detail}")
-    raise RuntimeError("the mailbox was closed")
+    times = Times([], [], [])
+    for number in range(rounds + WARM_UP):
+        floor_us = await asyncio.to_thread(raw.ping, payload)
+        dispatch_us, signature_us = await dispatches.trip()
+        if number >= WARM_UP:
+            times.raw.append(floor_us)
+            times.dispatch.append(dispatch_us)
+            times.signature.append(signature_us)
+    return times
 
 
 def _beat(number: int) -> Heartbeat:

@@ -198,3 +198,45 @@ def test_a_sample_after_the_loops_end_is_ignored() -> None:
         return KeepLatest(raw)
 
     asyncio.run(make()).offer(sample("late"))
+
+
+async def test_a_consumer_is_called_within_the_wakeup_that_brings_the_item() -> None:
+    mailbox = Events(raw, capacity=8, on_lost=lambda _: None)
+    seen: list[str] = []
+    consuming = asyncio.ensure_future(mailbox.each(lambda item: seen.append(item.payload.decode())))
+    await asyncio.sleep(0)
+    await asyncio.to_thread(mailbox.offer, sample("1"))
+    mailbox.offer(sample("2"))
+    asyncio.get_running_loop().call_soon(seen.append, "after")
+    await asyncio.sleep(0)
+    await asyncio.sleep(0)
+    assert seen == ["1", "2", "after"], "no turn of the loop lies between the wakeup and the consumer"
+    mailbox.close()
+    await asyncio.wait_for(consuming, 5.0)
+
+
+async def test_a_consumer_gets_what_was_there_before_and_the_loop_its_turns() -> None:
+    mailbox = Events(raw, capacity=1000, on_lost=lambda _: None)
+    seen: list[str] = []
+    for number in range(2 * BATCH):
+        mailbox.offer(sample(str(number)))
+    consuming = asyncio.ensure_future(mailbox.each(lambda item: seen.append(item.payload.decode())))
+    await asyncio.sleep(0)
+    assert len(seen) == BATCH
+    mailbox.close()
+    await asyncio.wait_for(consuming, 5.0)
+    assert seen == [str(number) for number in range(2 * BATCH)]
+
+
+async def test_a_bug_in_a_consumer_ends_the_consuming_task_alone() -> None:
+    mailbox = Events(raw, capacity=8, on_lost=lambda _: None)
+
+    def fail(item: Sample) -> None:
+        raise ZeroDivisionError
+
+    consuming = asyncio.ensure_future(mailbox.each(fail))
+    mailbox.offer(sample("1"))
+    with pytest.raises(ZeroDivisionError):
+        await asyncio.wait_for(consuming, 5.0)
+    mailbox.offer(sample("2"))
+    assert words(mailbox.take()) == ["2"]
