@@ -7,7 +7,9 @@ from collections.abc import Callable, Sequence
 from random import Random
 
 import msgspec
+from msgspec.structs import replace
 
+from crew.contracts.codes import Code
 from crew.contracts.decision import Authorizer, Decision
 from crew.contracts.language.mention import Reading
 from crew.contracts.mission import event as ev
@@ -19,7 +21,7 @@ from crew.contracts.plan import Call, Plan
 from crew.contracts.site import Rules
 from crew.contracts.snapshot import Point, Snapshot
 from crew.study.fuzz.plans import Made
-from crew.study.fuzz.rules import Moment, broken, incomplete, wrong_plan
+from crew.study.fuzz.rules import Approved, Moment, broken, incomplete, words_of, wrong_plan
 from crew.study.fuzz.wish import Wish
 from crew.study.fuzz.world import SECOND_NS, FuzzWorld
 
@@ -79,6 +81,8 @@ class Driver:
         """Robot to the sequence of what it does."""
         self._over = ""
         self._pinned: dict[str, Point] = {}
+        self._asked: dict[str, Approved] = {}
+        self._approved: dict[str, Approved] = {}
         self._judged: list[tuple[Decision, Moment, tuple[str, ...]]] = []
         self._faults: tuple[str, ...] = ()
 
@@ -160,14 +164,22 @@ class Driver:
 
     def _answer(self) -> None:
         question = self.state.question
-        if question is not None:
-            self._tell(ev.Answered(at_ns=self._pass(1.0), token=question.token, yes=bool(self._wish.calls)))
+        if question is None:
+            return
+        yes = bool(self._wish.calls) and (self._calm or self._chance.random() < 0.9)
+        at_ns = self._pass(1.0 if self._calm else self._chance.choice((1.0, 1.0, 8.0, 119.0, 121.0)))
+        if question.step and not yes:
+            self._over = self._over or "a person declined"
+        elif question.step in self._asked:
+            self._approved[question.step] = replace(self._asked[question.step], at_ns=at_ns)
+        self._tell(ev.Answered(at_ns=at_ns, token=question.token, yes=yes))
 
     # --- while it executes
 
     def _authorise(self, name: str) -> None:
         record = self.state.steps[name]
-        self._pass(0.05)
+        late = name in self._approved and not self._calm and self._chance.random() < 0.2
+        self._pass(self._chance.choice((9.9, 10.0, 10.000000001)) if late else 0.05)
         self._disturb([record.call.robot])
         self._probe()
         self._decide(record.call, Purpose.EXECUTE, name)
@@ -202,7 +214,10 @@ class Driver:
         moment = self._moment(call, name, decision, world, safe=purpose is Purpose.SAFE)
         wrong = tuple(broken(moment))
         self._judged.append((decision, moment, wrong))
-        if purpose is Purpose.EXECUTE:
+        asks = decision.refusal is not None and decision.refusal.code is Code.APPROVAL_MISSING
+        if asks:
+            self._asked[name] = Approved(now_ns, call, words_of(world.robots.get(call.robot)), decision.places)
+        elif purpose is Purpose.EXECUTE:
             self.out.refused += not decision.allowed
             if not wrong:
                 self.out.in_order += 1
@@ -211,7 +226,7 @@ class Driver:
         if decision.refusal is not None:
             self.out.told.append(f"{call} refused: {decision.refusal.code}")
         self._tell(ev.Decided(at_ns=now_ns, decision=decision))
-        if decision.refusal is not None and purpose is Purpose.EXECUTE:
+        if decision.refusal is not None and purpose is Purpose.EXECUTE and not asks:
             self._over = self._over or f"{name} was refused"
 
     def _moment(self, call: Call, name: str, decision: Decision, world: Snapshot, *, safe: bool) -> Moment:
@@ -234,6 +249,7 @@ class Driver:
             busy=frozenset(self._busy),
             over="" if safe else self._over,
             places=decision.places,
+            approved=self._approved.get(name),
             faults=self._faults,
         )
 
@@ -247,7 +263,7 @@ class Driver:
             return
         _, moment, wrong = found
         over = "" if moment.safe else self._over
-        now = msgspec.structs.replace(moment, sent=dict(self._sent), busy=frozenset(self._busy), over=over)
+        now = replace(moment, sent=dict(self._sent), busy=frozenset(self._busy), over=over)
         same = (now.sent, now.busy, now.over) == (moment.sent, moment.busy, moment.over)
         self.out.unsafe += wrong if same else broken(now)
         if send.call != moment.call or dict(send.places) != dict(moment.places):
@@ -310,7 +326,7 @@ class Driver:
     def _last_moment(self) -> Moment:
         """The last one that was judged, in the world of now."""
         moment = self._judged[-1][1]
-        return msgspec.structs.replace(moment, world=self._world.snapshot(), now_ns=self._world.now_ns)
+        return replace(moment, world=self._world.snapshot(), now_ns=self._world.now_ns)
 
     # --- early ends
 

@@ -8,12 +8,13 @@ import msgspec
 from msgspec.structs import replace
 
 from crew.contracts.contract import Condition
-from crew.contracts.gate import arguments, authorize, guard, state, value, workflow
+from crew.contracts.gate import approval, arguments, authorize, guard, state, value, workflow
 from crew.contracts.language import containment, licence
 from crew.contracts.language.mention import ROBOT_KINDS, Reading
 from crew.contracts.mission import ending, judgement, machine, record, validation
 from crew.contracts.mission import event as ev
 from crew.contracts.mission_state import CONSUMED, MissionState, Phase, StepPhase
+from crew.contracts.skill import Skill
 from crew.study.fuzz.run import Bench
 
 Patch = tuple[Any, str, Any]
@@ -210,6 +211,13 @@ def _table(phase: Phase, event: type, handler: Any) -> Patch:
     return (machine, "TABLE", {**machine.TABLE, (phase, event): (handler, targets)})
 
 
+def _one_subject(*args: Any, **kwargs: Any) -> str:
+    return "whatever"
+
+
+_ONE_SUBJECT: tuple[Patch, ...] = ((approval, "subject_of", _one_subject), (authorize, "subject_of", _one_subject))
+
+
 def _ignored(mission: MissionState, event: Any, contracts: Any) -> Any:
     return mission, ()
 
@@ -220,6 +228,7 @@ def _two_tests(name: str) -> tuple[Patch, ...]:
 
 
 _NOT = property(lambda self: ())
+_OWN_NEEDS = property(lambda self: self.needs)
 _EXECUTING = Phase.EXECUTING
 
 MUTANTS: tuple[Mutant, ...] = (
@@ -234,7 +243,7 @@ MUTANTS: tuple[Mutant, ...] = (
     Mutant(
         "robots",
         "another robot than the named one may act",
-        ((containment, "_robots", _nothing), (containment, "_coverage", _any_robot)),
+        ((Reading, "robots_of", _none_of_them), (containment, "_coverage", _any_robot)),
     ),
     Mutant("coverage", "what a plan drops is not noticed", ((containment, "_coverage", _nothing),)),
     Mutant("asked", "what nobody asked for may be added", ((containment, "_asked", _nothing),)),
@@ -253,10 +262,18 @@ MUTANTS: tuple[Mutant, ...] = (
     Mutant("stale_by_a_hair", "ages are rounded to milliseconds", ((state, "age", _late_age),)),
     Mutant("future", "stamps may lie ahead as far as they like", ((state, "age", _any_future),)),
     Mutant("preconditions", "a skill's preconditions are not asked", ((state, "_preconditions", _none_of_them),)),
+    Mutant("step_needs", "what a step needs beyond its skill is not asked", ((Skill, "all_needs", _OWN_NEEDS),)),
     Mutant("guards", "a contract's guards are not asked", ((state, "_guards", _none_of_them),)),
     Mutant("entry", "a contract's entry guards are not asked", ((state, "_guards", _no_entry),)),
     Mutant("unknown", "what is unknown holds", ((state, "evaluate", _unknown_holds),)),
     Mutant("deadline", "the deadline is not asked", ((state, "_check_deadline", _nothing),)),
+    Mutant("approval", "a person's approval is not asked", ((state, "check_approval", _nothing),)),
+    Mutant("old_approval", "an approval never gets old", ((approval, "APPROVAL_S", 1e9),)),
+    Mutant(
+        "any_approval",
+        "an approval holds for whatever is the case",
+        _ONE_SUBJECT,
+    ),
     Mutant("any_place", "whatever place was published is a fix", ((value, "_usable", _any_place),)),
     Mutant("any_status", "a fix need not say that it is one", ((value, "_usable", _any_status),)),
     Mutant("old_fix", "a fix never gets old", ((value, "_stale", _empty),)),

@@ -24,6 +24,7 @@ RULES = {
     "fresh": "what the robot tells is young enough for its kind, to the nanosecond; for a way to safety, its effect",
     "needs": "the skill's preconditions are seen",
     "guard": "the contract's guards hold in fresh state; what is unknown does not hold",
+    "approval": "a step that wants it was approved by a person: this call, this place, this state, at most 10 s ago",
     "never": "no `never` of the contract is broken",
     "fix": "a run-time value is there, finite, in the area, fresh, from its publisher, newer than the search for it",
     "avoid": "nobody is sent into a zone that the request excludes",

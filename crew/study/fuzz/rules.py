@@ -16,8 +16,19 @@ from crew.contracts.snapshot import FluentValue, Point, RobotState, Snapshot, St
 from crew.study.fuzz.wish import Wish
 from crew.study.soundness import inadmissible, ungrounded
 
+APPROVAL_NS = 10_000_000_000
+"""For how long a person's yes holds."""
 AHEAD_NS = 500_000_000
 """How far ahead of the orchestrator's clock a source's stamp may lie."""
+
+
+class Approved(msgspec.Struct, frozen=True):
+    """A person's yes: when it was given, and what was shown: the call, what the robot told in words, the places."""
+
+    at_ns: int
+    call: Call
+    words: Mapping[str, FluentValue]
+    places: Mapping[str, Point]
 
 
 class Moment(msgspec.Struct, frozen=True, kw_only=True):
@@ -44,6 +55,8 @@ class Moment(msgspec.Struct, frozen=True, kw_only=True):
     over: str
     """Why nothing of the plan may be sent any more; empty if it may."""
     places: Mapping[str, Point]
+    approved: Approved | None = None
+    """The last yes to this step."""
     faults: tuple[str, ...] = ()
     """What `wrong_plan` says of the plan: the same at each of its steps."""
 
@@ -86,6 +99,7 @@ def broken(m: Moment) -> Iterator[str]:
     yield from _robot(m)
     if not m.safe:
         yield from _conditions(m)
+        yield from _approval(m)
         yield from _never(m)
     yield from _places(m)
 
@@ -154,13 +168,14 @@ def _robot(m: Moment) -> Iterator[str]:
         yield f"busy: {name} is at work"
     skill = _skill(m.call, m.rules)
     watched = set(skill.effects) if m.safe else set(state.fluents)
-    for fluent in kind.fluents:
+    own = [fluent for fluent in kind.fluents if fluent.relation is None]
+    for fluent in own:
         stamped = state.fluents.get(fluent.name)
         if fluent.name in watched and stamped is not None and not _fresh(stamped.source_ns, fluent.max_age_s, m.now_ns):
             yield f"fresh: {name}.{fluent.name} is {(m.now_ns - stamped.source_ns) / 1e9:.9f} s old"
-    if not any(f.name in state.fluents and f.name in watched for f in kind.fluents):
+    if not any(f.name in state.fluents and f.name in watched for f in own):
         yield f"fresh: nothing was heard of {name}"
-    for fluent_name, wanted in skill.needs.items():
+    for fluent_name, wanted in {**skill.needs, **({} if m.safe else skill.step_needs)}.items():
         if _seen(state, fluent_name, kind, m.now_ns) != wanted:
             yield f"needs: {name}.{fluent_name} is not seen to be {wanted}"
 
@@ -177,6 +192,26 @@ def _conditions(m: Moment) -> Iterator[str]:
         near = _value(m.world, "requester", m)
         if near is None or near.reading.near is not m.wish.near:
             yield "guard: the person is not where the request means"
+
+
+def _approval(m: Moment) -> Iterator[str]:
+    step = None if m.contract is None else next((s for s in m.contract.steps if s.name == m.step), None)
+    if step is None or not step.approval:
+        return
+    if m.approved is None:
+        yield "approval: nobody has approved it"
+    elif not 0 <= m.now_ns - m.approved.at_ns <= APPROVAL_NS:
+        yield f"approval: it was given {(m.now_ns - m.approved.at_ns) / 1e9:.9f} s ago"
+    elif (m.approved.call, m.approved.places) != (m.call, m.places):
+        yield "approval: it was given for another call or another place"
+    elif m.approved.words != words_of(m.world.robots.get(m.call.robot)):
+        yield "approval: the robot is not as it was when it was approved"
+
+
+def words_of(state: RobotState | None) -> dict[str, FluentValue]:
+    """What a robot tells that is no figure: an approval is bound to it."""
+    fluents = {} if state is None else state.fluents
+    return {name: told.value for name, told in fluents.items() if not isinstance(told.value, float | Point)}
 
 
 def _never(m: Moment) -> Iterator[str]:

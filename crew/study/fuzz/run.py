@@ -7,6 +7,7 @@ from multiprocessing import get_context
 from random import Random
 
 import msgspec
+from msgspec.structs import replace
 
 from crew.contracts.gate.authorize import Gate
 from crew.contracts.language.lexicon import lexicon_of
@@ -16,7 +17,7 @@ from crew.contracts.site import Rules
 from crew.library import load_rules
 from crew.study.fuzz.mission import Driver, Outcome
 from crew.study.fuzz.plans import make
-from crew.study.fuzz.wish import TWO_ROVERS, WISHES
+from crew.study.fuzz.wish import APPROVED, TWO_ROVERS, WISHES
 from crew.study.fuzz.world import FuzzWorld
 
 CHUNK = 500
@@ -70,7 +71,8 @@ class Bench:
 
     def __init__(self) -> None:
         shipped = {crew: load_rules(crew) for crew in ("air_ground", "humanoid_quadruped")}
-        self.rules: Mapping[str, Rules] = {**shipped, TWO_ROVERS: _two_rovers(shipped["air_ground"])}
+        air = shipped["air_ground"]
+        self.rules: Mapping[str, Rules] = {**shipped, TWO_ROVERS: _two_rovers(air), APPROVED: _approved(air)}
         self._readings: dict[tuple[str, str], Reading] = {}
         self._gate = Gate()
 
@@ -93,12 +95,20 @@ class Bench:
         return found
 
 
+def _approved(rules: Rules) -> Rules:
+    contracts = dict(rules.contracts)
+    for name in ("dispatch_only", "search_and_dispatch"):
+        steps = (replace(s, approval=s.name == "dispatch") for s in contracts[name].steps)
+        contracts[name] = replace(contracts[name], steps=tuple(steps))
+    return replace(rules, contracts=contracts)
+
+
 def _two_rovers(rules: Rules) -> Rules:
     first = rules.crew.robot("tb3")
     assert first is not None
-    second = msgspec.structs.replace(first, name="tb4", sim="tb4", aliases=())
-    crew = msgspec.structs.replace(rules.crew, robots=(*rules.crew.robots, second))
-    return msgspec.structs.replace(rules, crew=crew)
+    second = replace(first, name="tb4", sim="tb4", aliases=())
+    crew = replace(rules.crew, robots=(*rules.crew.robots, second))
+    return replace(rules, crew=crew)
 
 
 def run(seed: int, plans: int, processes: int = 1, told: Callable[[int], None] = lambda _: None) -> Tally:

@@ -6,6 +6,7 @@ Nothing here comes from the reader of requests or from a planner. A wish without
 from collections.abc import Iterable
 
 import msgspec
+from msgspec.structs import replace
 
 from crew.contracts.plan import ArgValue, Call, Plan, Zone
 
@@ -60,6 +61,8 @@ def _equal(given: ArgValue, wanted: ArgValue) -> bool:
 
 
 SAME_M = 1e-6
+APPROVED = "approved"
+"""The air-ground crew where a person has to approve that the rover is sent."""
 TWO_ROVERS = "two_rovers"
 """The air-ground crew with a second rover, `tb4`: there a plan may choose the wrong one of two that are able."""
 WHOLE = Zone(-6.0, 10.0, -6.0, 10.0)
@@ -193,6 +196,9 @@ WISHES: tuple[Wish, ...] = (
         "do not search the north and send the rover to the victim",
         tempting=(SEEK, DRIVE),
     ),
+    replace(_send("send the rover to base", target="base"), crew=APPROVED),
+    replace(_send("send the rover to the victim", target="victim"), crew=APPROVED),
+    replace(_find_and_send("search the area and send the rover to the victim", WHOLE), crew=APPROVED),
     _send_one_of_two("send tb3 to base", "tb3", target="base"),
     _send_one_of_two("drive tb4 to (3, 4)", "tb4", x=3.0, y=4.0),
     _carry("bring me the red cube", "red_cube", "requester", near=False, tempting=(HAND_CUBE, COME)),

@@ -17,10 +17,11 @@ from crew.library import load_rules
 from crew.study.fuzz.command import fuzz
 from crew.study.fuzz.mutant import MUTANTS, applied, kill
 from crew.study.fuzz.page import RULES, made, page
-from crew.study.fuzz.rules import Moment, broken, incomplete, wrong_plan
+from crew.study.fuzz.rules import Approved, Moment, broken, incomplete, words_of, wrong_plan
 from crew.study.fuzz.run import Bench, Tally, count, run
-from crew.study.fuzz.wish import TWO_ROVERS, WISHES, Wish
+from crew.study.fuzz.wish import APPROVED, WISHES, Wish
 
+SHIPPED = ("air_ground", "humanoid_quadruped")
 NOW_NS, S = 1_000_000_000_000, 1_000_000_000
 SEARCH = next(w for w in WISHES if w.text == "search the north half and send the rover to the victim")
 CARRY = next(w for w in WISHES if w.text == "carry the red cube to room b")
@@ -34,7 +35,7 @@ def rules_of(crew: str) -> Rules:
 
 NOT_READ = "I need the red cube"
 """The reader does not take `need` for `bring me`: refused needlessly by the gate, and counted so by the fuzz."""
-READ = [w for w in WISHES if w.calls and w.crew != TWO_ROVERS and w.text != NOT_READ]
+READ = [w for w in WISHES if w.calls and w.crew in SHIPPED and w.text != NOT_READ]
 
 
 @pytest.mark.parametrize("wish", READ, ids=lambda w: w.text)
@@ -120,6 +121,18 @@ def test_what_is_in_order_breaks_no_rule() -> None:
     assert list(broken(at_load())) == []
 
 
+def wants_approval(m: Moment, **changes: Any) -> Moment:
+    """The dispatch has to be approved, and was, a second ago."""
+    rules = Bench().rules[APPROVED]
+    yes = Approved(NOW_NS - S, m.call, words_of(m.world.robots["tb3"]), m.places)
+    return replace(m, rules=rules, approved=replace(yes, **changes))
+
+
+def test_an_approval_of_exactly_this_is_in_order() -> None:
+    assert list(broken(wants_approval(at_dispatch()))) == []
+    assert list(broken(wants_approval(at_dispatch(), at_ns=NOW_NS - 10 * S))) == []
+
+
 BROKEN: Mapping[str, tuple[str, Callable[[], Moment]]] = {
     "sent before": ("once", lambda: replace(at_dispatch(), sent={**at_dispatch().sent, "dispatch": 1})),
     "before the report": ("order", lambda: replace(at_dispatch(), done=frozenset({"takeoff", "search"}))),
@@ -147,6 +160,10 @@ BROKEN: Mapping[str, tuple[str, Callable[[], Moment]]] = {
     "carrier moves": ("guard", lambda: with_fluent(at_load(), "go2", "moving", True)),
     "guard is old": ("guard", lambda: with_fluent(at_load(), "go2", "tray", "none", 2 * S + 1)),
     "no way to safety": ("safe", lambda: replace(at_load(), safe=True, step="safe:loader")),
+    "nobody approved": ("approval", lambda: replace(wants_approval(at_dispatch()), approved=None)),
+    "approved too long ago": ("approval", lambda: wants_approval(at_dispatch(), at_ns=NOW_NS - 10 * S - 1)),
+    "approved elsewhere": ("approval", lambda: wants_approval(at_dispatch(), places={"target": Point(0.0, 0.0)})),
+    "approved at rest": ("approval", lambda: wants_approval(at_dispatch(), words={"moving": True})),
     "ungrounded": ("grounded", lambda: replace(at_load(), call=Call("g1", "pick_hold", {"object": "piano"}))),
 }
 
