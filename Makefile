@@ -43,7 +43,7 @@ study: .venv/.ready  ## both testbeds in four arms, RO on five seeds (PLANNER=fa
 	  $(BIN)/crew eval $$crew --planner $(PLANNER) --out $(STUDY)/$$crew && \
 	  $(BIN)/crew eval $$crew --planner $(PLANNER) --arms ro --seeds 5 --out $(STUDY)/$$crew && \
 	  $(BIN)/crew eval ablate $$crew --planner $(PLANNER) --arms ro --out $(STUDY)/$$crew-held && \
-	  $(BIN)/crew eval substitution $$crew --planner $(PLANNER) --seeds 10 --out docs/study || exit $$?; \
+	  $(BIN)/crew eval substitution $$crew --planner $(PLANNER) --seeds 10 --out $(STUDY)/substitution || exit $$?; \
 	done
 	$(BIN)/crew eval fuzz --plans 100000 --mutant all --seed 2026 --out docs/study
 

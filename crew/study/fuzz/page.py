@@ -117,7 +117,7 @@ def _stories(results: Results) -> Iterator[str]:
         ("Missions that broke a rule", results.tally.stories),
         ("Refused needlessly", results.tally.needless_stories),
     ):
-        told = {(story.request, story.what[0]): story for story in reversed(stories)}
+        told = {(story.request, story.what[0].partition(":")[0]): story for story in reversed(stories)}
         if told:
             yield f"## {title}"
             yield ""
