@@ -1,7 +1,8 @@
 """The air-ground study: accuracy over maps and seeds, and what each fault leads to.
 
-`python -m crew.study.air_ground --out docs/study` runs what its results file does not hold yet, one mission after
-another, and writes the tables; it may be stopped and started again. `--limit-s` ends it early.
+`python -m crew.study.air_ground --out docs/study` runs what its results file does not hold yet, and then what another
+version has measured, one mission after another, and writes the tables; it may be stopped and started again.
+`--limit-s` ends it early.
 """
 
 import argparse
@@ -15,6 +16,7 @@ import msgspec
 from crew.errors import CrewError
 from crew.study.mission import Measured, Scenario, measure
 from crew.study.table import Study, page
+from crew.study.version import study_version
 
 MAPS = ("A", "B", "C")
 FIRST = 9
@@ -43,17 +45,24 @@ def scenarios(seeds: int) -> Iterator[Scenario]:
 def run(wanted: Sequence[Scenario], out: Path, runs: Path, limit_s: float) -> int:
     """Measure what is missing; how many are missing still."""
     results, end_s = out / "air_ground.json", time.monotonic() + limit_s
-    study = msgspec.json.decode(results.read_bytes(), type=Study) if results.exists() else Study.begun()
-    known = {measured.scenario for measured in study.missions}
-    missing = [scenario for scenario in wanted if scenario not in known]
+    study = msgspec.json.decode(results.read_bytes(), type=Study) if results.exists() else Study()
+    missing = missing_of(study, wanted, study_version())
     while missing and time.monotonic() < end_s:
         measured = measure(missing.pop(0), runs)
         _say(measured, len(missing))
-        study = msgspec.structs.replace(study, missions=_ordered((*study.missions, measured), wanted))
+        kept = tuple(m for m in study.missions if m.scenario != measured.scenario)
+        study = Study(missions=_ordered((*kept, measured), wanted))
         out.mkdir(parents=True, exist_ok=True)
         results.write_bytes(msgspec.json.format(msgspec.json.encode(study), indent=1) + b"\n")
     (out / "air_ground.md").write_text(page(study), encoding="utf-8")
     return len(missing)
+
+
+def missing_of(study: Study, wanted: Sequence[Scenario], version: str) -> list[Scenario]:
+    """What was never measured, and after it what was measured with another version than this."""
+    versions = {measured.scenario: measured.version for measured in study.missions}
+    never = [scenario for scenario in wanted if scenario not in versions]
+    return [*never, *(scenario for scenario in wanted if versions.get(scenario, version) != version)]
 
 
 def _ordered(missions: tuple[Measured, ...], wanted: Sequence[Scenario]) -> tuple[Measured, ...]:

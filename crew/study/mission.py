@@ -15,6 +15,7 @@ from crew.errors import CrewError
 from crew.journal_reader import read_records
 from crew.records import DecisionRecord
 from crew.sim.map import load_map
+from crew.study.version import study_version
 
 TIMEOUT_S = 240.0
 MOVED_M = 0.3
@@ -36,6 +37,8 @@ class Scenario(msgspec.Struct, frozen=True, kw_only=True):
 class Measured(msgspec.Struct, frozen=True, kw_only=True):
     """How it ended. Errors are horizontal, metres; ends are true positions x, y, z: world ENU, metres."""
 
+    version: str
+    """Of the project, that it was measured with."""
     scenario: Scenario
     outcome: str
     code: str | None
@@ -72,6 +75,7 @@ def _measured(scenario: Scenario, result: Mapping[str, Any]) -> Measured:
     known = fix is not None and math.isfinite(fix.x)
     failed = next((s for s in result["steps"] if s["code"]), None)
     return Measured(
+        version=study_version(),
         scenario=scenario,
         outcome=result["outcome"],
         code=result["code"] or (failed["code"] if failed else None),

@@ -1,7 +1,7 @@
 """Tables of a study, in Markdown, from its results alone."""
 
+from collections import Counter
 from collections.abc import Iterator, Sequence
-from importlib.metadata import version
 from statistics import mean, stdev
 
 import msgspec
@@ -10,15 +10,9 @@ from crew.study.mission import Measured
 
 
 class Study(msgspec.Struct, frozen=True, kw_only=True):
-    """What was measured, and with which version."""
+    """What was measured; each mission says with which version."""
 
-    version: str
     missions: tuple[Measured, ...] = ()
-
-    @classmethod
-    def begun(cls) -> "Study":
-        """A study with nothing measured yet."""
-        return cls(version=version("robot-crew"))
 
 
 def page(study: Study) -> str:
@@ -30,11 +24,33 @@ def page(study: Study) -> str:
 def _head(study: Study) -> Iterator[str]:
     yield "# The air-ground crew in numbers"
     yield ""
-    yield f"Made by `python -m crew.study.air_ground` with version {study.version}, from `air_ground.json` beside this"
-    yield "page; every mission is a `crew demo` at full speed, with the noise of `sim/noise.py`. Errors are horizontal,"
-    yield "in metres, against the simulation's truth. A mission is repeated by its map, seed and fault; digits may"
-    yield "differ slightly, for the order of work in different processes is free."
+    yield "Made by `python -m crew.study.air_ground` from `air_ground.json` beside this page; every mission is a"
+    yield "`crew demo` at full speed, with the noise of `sim/noise.py`. Errors are horizontal, in metres, against the"
+    yield "simulation's truth. A mission is repeated by its map, seed and fault; digits may differ slightly, for the"
+    yield "order of work in different processes is free."
     yield ""
+    yield f"Measured with {_versions(study.missions)}."
+    yield ""
+
+
+def _versions(missions: Sequence[Measured]) -> str:
+    """How many missions were measured with which version; one that is measured again replaces what was there."""
+    counts = Counter(m.version for m in missions)
+    if len(counts) == 1:
+        return f"version {next(iter(counts))}"
+    told = [f"version {version} ({', '.join(_names(missions, version))})" for version in counts]
+    return "; ".join(told) or "no version: nothing was measured yet"
+
+
+def _names(missions: Sequence[Measured], version: str) -> Iterator[str]:
+    """The missions of one version: seeds by map, and how many of another kind."""
+    mine = [m.scenario for m in missions if m.version == version]
+    for map_ in sorted({s.map for s in mine if s.name == "accuracy"}):
+        seeds = sorted(s.seed for s in mine if s.name == "accuracy" and s.map == map_)
+        yield f"map {map_} seeds {' '.join(map(str, seeds))}"
+    for kind in ("fault", "sight"):
+        if count := sum(s.name == kind for s in mine):
+            yield f"{count} of the {kind}s"
 
 
 def _accuracy(study: Study) -> Iterator[str]:
