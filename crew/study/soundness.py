@@ -7,7 +7,7 @@ the reader of requests.
 import math
 from collections.abc import Iterator, Mapping, Sequence
 
-from crew.contracts.contract import CallPattern, Contract, Step
+from crew.contracts.contract import CallPattern, Contract, SlotType, Step
 from crew.contracts.plan import ArgValue, Call
 from crew.contracts.site import Rules
 from crew.contracts.skill import Entity, Param, Skill
@@ -82,7 +82,8 @@ def _name(param: Param, value: ArgValue, reach: Sequence[str], rules: Rules) -> 
 def inadmissible(contract: str, calls: Sequence[Call], rules: Rules) -> str:
     """Why calls are no composition that the contract admits; empty if they are.
 
-    Arguments count where the contract fixes them or binds two steps to one value; grounding is not asked.
+    Arguments count where the contract fixes them, binds two steps to one value, or wants another sort of thing than the
+    one that is named; whether a name exists at all is a matter of grounding and not asked.
     """
     declared = rules.contracts.get(contract)
     if declared is None:
@@ -119,8 +120,8 @@ def _castings(
             continue
         for pattern in step.do:
             now = _bind(pattern, call, bound)
-            if now is not None:
-                cast = {**roles, step.role: call.robot}
+            cast = {**roles, step.role: call.robot}
+            if now is not None and _sorted(contract, now, cast, rules):
                 yield from _castings(contract, calls, index + 1, (*taken, step.name), cast, now, rules)
 
 
@@ -139,6 +140,26 @@ def _bind(pattern: CallPattern, call: Call, bound: Mapping[str, ArgValue]) -> Bi
         elif now.setdefault(wanted, given) != given:
             return None
     return now
+
+
+def _sorted(contract: Contract, bound: Mapping[str, ArgValue], cast: Mapping[str, str], rules: Rules) -> bool:
+    """Whether every name that exists is of a sort that its variable takes, and beyond a robot's reach where it must."""
+    crew = rules.crew
+    places = {place.name for place in crew.locations}
+    for slot in contract.slots:
+        value = bound.get(f"${slot.name}")
+        if not isinstance(value, str):
+            continue
+        sorts = {SlotType.OBJECT: {thing.name for thing in crew.objects}, SlotType.LOCATION: places}
+        sorts[SlotType.VALUE] = {v.name for v in crew.values}
+        known = set().union(*sorts.values(), *({part.name} for part in rules.parts.values()))
+        fits = any(value in sorts.get(sort, ()) for sort in slot.types if sort is not SlotType.VALUE)
+        if value in known and not fits and value not in slot.values:
+            return False
+        near = next((r.reach for r in crew.robots if r.name == cast.get(slot.beyond)), ())
+        if slot.beyond and value in near:
+            return False
+    return True
 
 
 def _able(robot: str, role: str, contract: Contract, rules: Rules) -> bool:
