@@ -9,7 +9,7 @@ from crew.adapters.mavlink.braking import brake
 from crew.adapters.mavlink.checklist import walk
 from crew.adapters.mavlink.flavours.flavour import FlightFlavour
 from crew.adapters.mavlink.link import LinkCounts
-from crew.adapters.mavlink.options import QuadcopterOptions, RoverOptions, VehicleOptions, read_options
+from crew.adapters.mavlink.options import QuadcopterOptions, RoverOptions, VehicleOptions
 from crew.adapters.mavlink.others import Others
 from crew.adapters.mavlink.quadcopter import QuadcopterSkills
 from crew.adapters.mavlink.rover import RoverSkills
@@ -17,6 +17,7 @@ from crew.adapters.mavlink.run import HANDS_OFF, Run
 from crew.adapters.mavlink.skills import Skills
 from crew.adapters.mavlink.vehicle import POLL_S, Vehicle
 from crew.adapters.mavlink.writer import Permit
+from crew.adapters.options import read_options
 from crew.adapters.stopping import StopRepeater
 from crew.clock import Clock
 from crew.contracts.skill import SkillArgs

@@ -1,11 +1,9 @@
 """The options of a robot's part of the crew file that this adapter reads."""
 
-from typing import Annotated, Any, TypeVar
+from typing import Annotated
 
 import msgspec
 from msgspec import Meta
-
-from crew.errors import AdapterError, nearest
 
 Positive = Annotated[float, Meta(gt=0)]
 NotNegative = Annotated[float, Meta(ge=0)]
@@ -62,18 +60,3 @@ class RoverOptions(VehicleOptions, frozen=True, kw_only=True, forbid_unknown_fie
     """It comes no nearer than this to what the scanner sees ahead."""
     cell_m: Annotated[float, Meta(ge=0.05, le=1.0)] = 0.2
     """Cell of the occupancy grid."""
-
-
-Options = TypeVar("Options", bound=VehicleOptions)
-
-
-def read_options(robot: str, given: dict[str, Any], kind: type[Options]) -> Options:
-    """The options, checked. Raises AdapterError `bad_option` naming the option and what is allowed."""
-    for name in given:
-        if name not in kind.__struct_fields__:
-            hint = nearest(name, kind.__struct_fields__)
-            raise AdapterError(f"{robot}: no option {name!r}{hint}", code="bad_option")
-    try:
-        return msgspec.convert(given, kind)
-    except msgspec.ValidationError as error:
-        raise AdapterError(f"{robot}: options: {error}", code="bad_option") from error

@@ -4,10 +4,11 @@ import asyncio
 from collections.abc import Callable, Mapping
 
 from crew.adapter import AdapterConfig, Permit, Place, Reading, StopLatch
+from crew.adapters.options import read_options
 from crew.adapters.settling import Settling
 from crew.adapters.stopping import StopRepeater
 from crew.adapters.unitree.manipulator import ManipulatorSkills
-from crew.adapters.unitree.options import ManipulatorOptions, RobotOptions, WalkerOptions, read_options
+from crew.adapters.unitree.options import ManipulatorOptions, RobotOptions, WalkerOptions
 from crew.adapters.unitree.robot import POLL_S, Robot
 from crew.adapters.unitree.run import Run
 from crew.adapters.unitree.skills import Skills

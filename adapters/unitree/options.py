@@ -1,12 +1,10 @@
 """The options of a robot's part of the crew file that this adapter reads."""
 
 from collections.abc import Mapping
-from typing import Annotated, Any, Literal, TypeVar
+from typing import Annotated, Literal
 
 import msgspec
 from msgspec import Meta
-
-from crew.errors import AdapterError, nearest
 
 Positive = Annotated[float, Meta(gt=0)]
 NotNegative = Annotated[float, Meta(ge=0)]
@@ -65,18 +63,3 @@ class ManipulatorOptions(RobotOptions, frozen=True, kw_only=True, forbid_unknown
     """Change of the arm's torques that means somebody pulls."""
     offer_s: Positive = 12.0
     """How long an object is held out."""
-
-
-Options = TypeVar("Options", bound=RobotOptions)
-
-
-def read_options(robot: str, given: dict[str, Any], kind: type[Options]) -> Options:
-    """The options, checked. Raises AdapterError `bad_option` naming the option and what is allowed."""
-    for name in given:
-        if name not in kind.__struct_fields__:
-            hint = nearest(name, kind.__struct_fields__)
-            raise AdapterError(f"{robot}: no option {name!r}{hint}", code="bad_option")
-    try:
-        return msgspec.convert(given, kind)
-    except msgspec.ValidationError as error:
-        raise AdapterError(f"{robot}: options: {error}", code="bad_option") from error

@@ -12,13 +12,14 @@ from crew.adapters.mavlink.flavours.px4_quadcopter import Px4Quadcopter
 from crew.adapters.mavlink.flavours.registry import choose_flavour
 from crew.adapters.mavlink.frame import WorldFrame
 from crew.adapters.mavlink.link import parse_datagram
-from crew.adapters.mavlink.options import QuadcopterOptions, RoverOptions, read_options
+from crew.adapters.mavlink.options import QuadcopterOptions, RoverOptions
 from crew.adapters.mavlink.parameter import decode_value
 from crew.adapters.mavlink.preflight import bad_sensors
 from crew.adapters.mavlink.search import Search
 from crew.adapters.mavlink.statustext import StatusLog
 from crew.adapters.mavlink.sweep import Zone
 from crew.adapters.mavlink.telemetry import Telemetry
+from crew.adapters.options import read_options
 from crew.clock import SimClock
 from crew.errors import AdapterError
 from tests.unit.adapters.fake import heartbeat

@@ -3,9 +3,10 @@
 import pytest
 
 from crew.adapter import AdapterConfig
+from crew.adapters.options import read_options
 from crew.adapters.unitree.adapter import UnitreeAdapter
 from crew.adapters.unitree.datagrams import parse_address
-from crew.adapters.unitree.options import ManipulatorOptions, WalkerOptions, read_options
+from crew.adapters.unitree.options import ManipulatorOptions, WalkerOptions
 from crew.clock import SimClock
 from crew.errors import AdapterError
 
