@@ -41,8 +41,19 @@ class Ended(msgspec.Struct, frozen=True, kw_only=True):
     mission_s: float = 0.0
 
 
-async def fly(options: LaunchOptions, scenario: Scenario, home: Home, run_folder: Path, *, enforced: bool) -> Ended:
-    """Carry out a scenario; leaves the run's journal, the simulation's truth and the end in `run_folder`."""
+async def fly(
+    options: LaunchOptions,
+    scenario: Scenario,
+    home: Home,
+    run_folder: Path,
+    *,
+    enforced: bool,
+    after_s: float = AFTER_S,
+) -> Ended:
+    """Carry out a scenario; leaves the run's journal, the simulation's truth and the end in `run_folder`.
+
+    The truth is kept on for `after_s` of mission time after the end.
+    """
     options = msgspec.structs.replace(options, faults=scenario.faults_at_once)
     frames: list[Frame] = []
     async with study_crew(options, home, run_folder, enforced=enforced) as crew:
@@ -50,7 +61,7 @@ async def fly(options: LaunchOptions, scenario: Scenario, home: Home, run_folder
         crew.bus.subscribe(crew.keys.sim_truth, truths)
         began_ns = await _begin(crew, truths, frames, scenario)
         last = await _ask(crew.bus, crew.keys, scenario.request)
-        await _hear_out(truths, frames, crew)
+        await _hear_out(truths, frames, crew, after_s)
     ended = _ended(last, began_ns)
     (run_folder / TRUTH).write_bytes(msgspec.msgpack.encode(frames))
     (run_folder / ENDED).write_bytes(msgspec.json.encode(ended))
@@ -113,10 +124,10 @@ async def _ask(bus: Bus, keys: Keys, request: str) -> MissionEvent | None:
     return None
 
 
-async def _hear_out(truths: Events[Letter[SimTruth]], frames: list[Frame], crew: StudyCrew) -> None:
+async def _hear_out(truths: Events[Letter[SimTruth]], frames: list[Frame], crew: StudyCrew, after_s: float) -> None:
     """Everything that was heard so far, and a moment more."""
     _take(truths, frames, crew)
-    end_ns = frames[-1].at_ns + round(AFTER_S * SECOND_NS)
+    end_ns = frames[-1].at_ns + round(after_s * SECOND_NS)
     while frames[-1].at_ns < end_ns and await WALL.race(truths.changed(), READY_S):
         _take(truths, frames, crew)
 

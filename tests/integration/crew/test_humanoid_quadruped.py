@@ -45,20 +45,15 @@ def test_a_load_lost_on_the_way_halts_and_its_true_place_is_told(desk: Desk) -> 
 
 
 @pytest.mark.parametrize(
-    ("request_", "fault", "code"),
+    ("request_", "code"),
     [
-        ("bring me the piano", "", "unknown_object"),
-        ("carry the red cube to the rooftop helipad", "", "unknown_location"),
-        ("do not take the red cube to room_b", "", "forbidden_by_request"),
-        ("bring me the red cube", "g1_unavailable", "robot_unavailable"),
-        ("bring me the red cube", "lease_held", "robot_unavailable"),
+        ("bring me the piano", "unknown_object"),
+        ("carry the red cube to the rooftop helipad", "unknown_location"),
+        ("do not take the red cube to room_b", "forbidden_by_request"),
     ],
 )
-def test_what_must_not_be_done_moves_nothing(desk: Desk, request_: str, fault: str, code: str) -> None:
-    more = ("--fault", fault) if fault else ()
-    demo = desk.demo(
-        "humanoid_quadruped", "--map", "near" if fault == "g1_unavailable" else "far", "--request", request_, *more
-    )
+def test_what_must_not_be_done_moves_nothing(desk: Desk, request_: str, code: str) -> None:
+    demo = desk.demo("humanoid_quadruped", "--map", "far", "--request", request_)
     assert (demo.code, demo.result["outcome"]) == (3, "rejected"), demo
     assert demo.result["code"] == code
     assert intents(demo.run) == []
