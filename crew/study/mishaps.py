@@ -150,11 +150,6 @@ def _lies(frame: Frame) -> str:
 def _still(frames: Sequence[Frame]) -> bool:
     """Whether everybody stands in the last half second that was seen."""
     last, before = frames[-1], frames[max(0, len(frames) - 6)]
-    print(
-        [round(math.dist(last.poses["go2"][:2], f.poses["go2"][:2]), 3) for f in frames[::-3][:14]],
-        len(frames),
-        frames[-1].poses["go2"],
-    )
     return all(math.dist(last.poses[r][:2], before.poses[r][:2]) < STILL_M for r in last.poses)
 
 
