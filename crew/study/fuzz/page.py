@@ -104,7 +104,7 @@ def _counts(results: Results) -> Iterator[str]:
         ("**missions that broke a rule**", f"**{tally.unsafe:,}**"),
         ("steps with nothing against them, refused at their dispatch", f"{tally.needless:,} of {tally.in_order:,}"),
         ("plans known to be right, in a world in order, refused", f"{tally.needless_plans:,} of {tally.right:,}"),
-        ("missions that asked a person back", f"{tally.asked_back:,}"),
+        ("questions to a person, for approval or for words not read", f"{tally.asked_back:,}"),
     )
     yield "| | |"
     yield "|---|---|"
