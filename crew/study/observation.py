@@ -130,6 +130,8 @@ class Observation(Record, frozen=True, kw_only=True):
     """Horizontal, from what was to arrive to where it was to arrive; None if nothing was."""
     mission_s: float = 0.0
     wall_s: float = 0.0
+    repeats: int = 0
+    """How often the mission was begun before and said nothing: a crew that did not come up, a machine too slow."""
     digests: Digests = Digests()
 
     @property

@@ -34,6 +34,7 @@ class Mission(msgspec.Struct, frozen=True, kw_only=True):
     seed: int
     version: str
     """Of all the code that is at work (`crew.study.version`)."""
+    repeats: int = 0
 
 
 class Story(msgspec.Struct, kw_only=True):
@@ -88,6 +89,7 @@ def observe(mission: Mission, ended: Ended, rules: Rules, folder: Path, root: Pa
         goal_error_m=_goal_error_m(story, rules, frames, ended.outcome),
         mission_s=ended.mission_s,
         wall_s=wall_s,
+        repeats=mission.repeats,
         digests=story.digests,
     )
     return msgspec.structs.replace(final, as_expected=as_expected(final, scenario))

@@ -22,8 +22,8 @@ from crew.study.scenario import Scenario
 from crew.study.worker import SEEN, Answer, Task
 
 RUNS = "runs"
-TRIES = 2
-"""How often a mission is begun whose crew does not come up."""
+TRIES = 3
+"""How often a mission is begun whose crew does not come up, or for which the machine is too slow."""
 PATIENCE_S = LIMIT_S + 60.0
 RECYCLE = 12
 """Missions after which a worker is replaced, so that nothing piles up in it."""
@@ -77,7 +77,7 @@ def run_study(wanted: Wanted, tell: Tell) -> Results:
     """Carry out what the folder does not hold yet, and publish all that it holds.
 
     Raises UsageError before anything is run if the folder holds missions of another version or planner, and
-    CrewError if a crew does not come up; what was done until then is kept, and done the next time.
+    CrewError if a crew does not come up or the machine is too slow for it; what was done until then is kept.
     """
     wanted.out.mkdir(parents=True, exist_ok=True)
     return run_tasks(wanted, tasks(wanted), tell)
@@ -193,11 +193,11 @@ class _Worker(threading.Thread):
 
     def _try(self, task: Task) -> Observation | CrewError:
         said = ""
-        for _ in range(TRIES):
+        for repeats in range(TRIES):
             if self._over:
                 break
             shutil.rmtree(Path(task.out) / task.run, ignore_errors=True)
-            answer = self._ask(task)
+            answer = self._ask(msgspec.structs.replace(task, repeats=repeats))
             if answer.observation is not None:
                 return answer.observation
             said = answer.error

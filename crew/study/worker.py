@@ -12,6 +12,7 @@ from crew.contracts.render.prompt import Arm
 from crew.errors import CrewError
 from crew.home import Home, replace_file
 from crew.launch.options import LaunchOptions
+from crew.study.disturbed import disturbance
 from crew.study.launch import simulated_rules
 from crew.study.live import fly
 from crew.study.observation import Observation
@@ -37,6 +38,8 @@ class Task(msgspec.Struct, frozen=True, kw_only=True):
     version: str
     out: str
     run: str
+    repeats: int = 0
+    """How often it was begun before, and could not be carried out."""
 
 
 class Answer(msgspec.Struct, frozen=True, kw_only=True):
@@ -49,7 +52,8 @@ class Answer(msgspec.Struct, frozen=True, kw_only=True):
 def carry_out(task: Task) -> Observation:
     """Run one mission and leave its observation in its folder.
 
-    Raises CrewError if the crew does not come up, or if this process has other code than the study began with.
+    Raises CrewError if the crew does not come up, if the machine was too slow for the mission, or if this process has
+    other code than the study began with.
     """
     if (here := study_version()) != task.version:
         raise CrewError(f"the code has changed under the study: it began with {task.version}, now it is {here}")
@@ -65,9 +69,12 @@ def carry_out(task: Task) -> Observation:
         model=task.planning.model,
         seed=task.seed,
         version=task.version,
+        repeats=task.repeats,
     )
     wall_s = round(time.monotonic() - began, 2)
     found = observe(mission, ended, simulated_rules(options), folder, out, wall_s)
+    if slow := disturbance(found, task.scenario):
+        raise CrewError(f"the machine was too slow: {slow}")
     replace_file(folder / SEEN, msgspec.json.format(msgspec.json.encode(found), indent=1) + b"\n", durable=False)
     return found
 
