@@ -447,6 +447,8 @@ class SimTruth(Message, frozen=True, kw_only=True):
     targets: Mapping[str, tuple[float, float, float]]
     bodies: Mapping[str, Pose] = {}
     """Every body of the scene that can move."""
+    dropped: int = 0
+    """How often somebody has left the lockstep so far, for having been silent on the wall's clock."""
 
 
 class SimShape(msgspec.Struct, frozen=True, kw_only=True):

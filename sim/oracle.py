@@ -34,6 +34,8 @@ class Frame(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
     targets: Mapping[str, tuple[float, float, float]]
     hands: Mapping[str, tuple[float, float, float]] = {}
     """Where the hand of a robot is that has one: an arm moves while the robot stands."""
+    dropped: int = 0
+    """How often somebody has left the lockstep so far: time went on without them."""
 
 
 class Sent(msgspec.Struct, frozen=True, kw_only=True):

@@ -78,7 +78,13 @@ class Simulation:
     def _truth(self) -> SimTruth:
         truth = self._world.scene_truth()
         poses = {robot: truth.poses[vehicle] for robot, vehicle in self._vehicles.items()}
-        return SimTruth(at_ns=truth.time_ns, poses=poses, targets=truth.targets, bodies=self._show.moving())
+        return SimTruth(
+            at_ns=truth.time_ns,
+            poses=poses,
+            targets=truth.targets,
+            bodies=self._show.moving(),
+            dropped=self._lockstep.dropped,
+        )
 
     async def _collect_datagrams(self) -> None:
         """Take in what the adapters sent before they acknowledged; loopback delivers at once, so one look is enough."""

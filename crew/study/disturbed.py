@@ -18,10 +18,15 @@ LINKS = ("link_loss",)
 """Faults that cut somebody off on purpose."""
 
 
-def disturbance(seen: Observation, scenario: Scenario) -> str:
-    """What was not heard in time, in a few words; empty if nothing was, or if the scenario is about that."""
+def disturbance(seen: Observation, scenario: Scenario, dropped: int) -> str:
+    """What was not heard in time, in a few words; empty if nothing was, or if the scenario is about that.
+
+    `dropped`: how often somebody has left the lockstep, so that mission time went on without them.
+    """
     if any(fault.partition("@")[0] in LINKS for fault in scenario.faults):
         return ""
+    if dropped:
+        return f"mission time went on {dropped} times without somebody who was silent"
     for dispatch in seen.dispatches:
         if dispatch.code in LOST:
             return f"{dispatch.robot}.{dispatch.skill} ended with {dispatch.code}"

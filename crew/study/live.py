@@ -39,6 +39,8 @@ class Ended(msgspec.Struct, frozen=True, kw_only=True):
     began_ns: int
     """Mission time of the request."""
     mission_s: float = 0.0
+    dropped: int = 0
+    """How often somebody has left the lockstep meanwhile: time went on without them."""
 
 
 async def fly(
@@ -62,13 +64,13 @@ async def fly(
         began_ns = await _begin(crew, truths, frames, scenario)
         last = await _ask(crew.bus, crew.keys, scenario.request)
         await _hear_out(truths, frames, crew, after_s)
-    ended = _ended(last, began_ns)
+    ended = _ended(last, began_ns, frames[-1].dropped - frames[0].dropped)
     (run_folder / TRUTH).write_bytes(msgspec.msgpack.encode(frames))
     (run_folder / ENDED).write_bytes(msgspec.json.encode(ended))
     return ended
 
 
-def _ended(last: MissionEvent | None, began_ns: int) -> Ended:
+def _ended(last: MissionEvent | None, began_ns: int, dropped: int) -> Ended:
     if last is None:
         return Ended(outcome="error", message=f"no outcome within {LIMIT_S:g} s of wall time", began_ns=began_ns)
     asked = last.what == "question"
@@ -79,6 +81,7 @@ def _ended(last: MissionEvent | None, began_ns: int) -> Ended:
         message=last.text,
         began_ns=began_ns,
         mission_s=round(last.at_s, 2),
+        dropped=dropped,
     )
 
 
@@ -137,4 +140,6 @@ def _take(truths: Events[Letter[SimTruth]], frames: list[Frame], crew: StudyCrew
     while heard := truths.take():
         for truth in (letter.message for letter in heard):
             seen = {robot: truth.bodies[body][:3] for robot, body in hands.items() if body in truth.bodies}
-            frames.append(Frame(at_ns=truth.at_ns, poses=truth.poses, targets=truth.targets, hands=seen))
+            poses, targets, dropped = truth.poses, truth.targets, truth.dropped
+            frame = Frame(at_ns=truth.at_ns, poses=poses, targets=targets, hands=seen, dropped=dropped)
+            frames.append(frame)

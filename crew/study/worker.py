@@ -73,7 +73,7 @@ def carry_out(task: Task) -> Observation:
     )
     wall_s = round(time.monotonic() - began, 2)
     found = observe(mission, ended, simulated_rules(options), folder, out, wall_s)
-    if slow := disturbance(found, task.scenario):
+    if slow := disturbance(found, task.scenario, ended.dropped):
         raise CrewError(f"the machine was too slow: {slow}")
     replace_file(folder / SEEN, msgspec.json.format(msgspec.json.encode(found), indent=1) + b"\n", durable=False)
     return found
