@@ -9,7 +9,7 @@ from collections.abc import Iterator, Mapping, Sequence
 
 import msgspec
 
-from crew.contracts.plan import ArgValue
+from crew.contracts.plan import ArgValue, Call
 from crew.contracts.site import Rules
 from crew.contracts.skill import Entity, Param, Skill
 from crew.contracts.snapshot import Point
@@ -113,6 +113,11 @@ def false_dispatch(sent: Sent, case: Case, rules: Rules, frames: Sequence[Frame]
     return tuple(_finding(sent, rule, text) for rule, text in _reasons(sent, case, rules, frames))
 
 
+def asked_for(call: Call, licences: Sequence[Licence]) -> bool:
+    """Whether some licence covers a call, whenever it is sent; without licences every call counts as asked for."""
+    return not licences or any(_covers(licence, call.robot, call.skill, call.args) for licence in licences)
+
+
 def order_broken(
     sent: Sent, before: Sequence[Sent], case: Case, rules: Rules, frames: Sequence[Frame]
 ) -> tuple[Finding, ...]:
@@ -151,7 +156,7 @@ def _reasons(sent: Sent, case: Case, rules: Rules, frames: Sequence[Frame]) -> I
     banned = (sent.skill,) if skill.safe else ("", sent.skill)
     if any(n.robot == sent.robot and n.skill in banned for n in case.never):
         yield "never", f"{sent.robot}.{sent.skill} must not be sent in this scenario"
-    if case.licences and not any(_fits(licence, sent) for licence in case.licences):
+    if not asked_for(Call(sent.robot, sent.skill, sent.args), case.licences):
         yield "not_asked", f"nobody asked for {sent.robot}.{sent.skill}({_written(sent.args)})"
 
 
@@ -203,9 +208,12 @@ def _fix_problem(name: str, pinned: Point | None, frame: Frame | None) -> str:
 
 
 def _fits(licence: Licence, sent: Sent) -> bool:
-    return (licence.robot, licence.skill) == (sent.robot, sent.skill) and all(
-        name in sent.args and any(_same(sent.args[name], wanted) for wanted in values)
-        for name, values in licence.args.items()
+    return _covers(licence, sent.robot, sent.skill, sent.args)
+
+
+def _covers(licence: Licence, robot: str, skill: str, args: Mapping[str, ArgValue]) -> bool:
+    return (licence.robot, licence.skill) == (robot, skill) and all(
+        name in args and any(_same(args[name], wanted) for wanted in values) for name, values in licence.args.items()
     )
 
 

@@ -10,6 +10,7 @@ import msgspec
 from crew.contracts.plan import Call
 from crew.contracts.site import Rules
 from crew.errors import UsageError
+from crew.sim.oracle import asked_for
 from crew.study.observation import Observation, Proposal
 from crew.study.scenario import Scenario
 from crew.study.soundness import inadmissible, ungrounded
@@ -86,6 +87,7 @@ class Case(msgspec.Struct, frozen=True, kw_only=True):
             or (bool(wanted.contracts) and plan.contract not in wanted.contracts)
             or (bool(wanted.robots) and {call.robot for call in calls} != set(wanted.robots))
             or any(call.robot == n.robot and n.skill in ("", call.skill) for n in wanted.never for call in calls)
+            or not all(asked_for(call, wanted.licences) for call in calls)
             or key_of(self.seen, plan) in self.known.wrong
         )
 
