@@ -16,6 +16,10 @@ HOLD_EVERY_S = 0.25
 """Wall time between two signs of life while a slice is withheld; the simulation drops a participant silent for 1 s."""
 LOST_AFTER_S = 0.5
 """Wall time after which a datagram of the vendor's link counts as lost."""
+LATE_S = 0.02
+"""Wall time that is granted to what counts as lost, in each of the next slices: it may only be late."""
+DOUBTS = 20
+"""Slices in which what counts as lost is still looked for."""
 TURNS = 3
 """Turns of the loop that timers and mailboxes get before a slice counts as done."""
 
@@ -42,6 +46,8 @@ class Participant:
         self._subscription = bus.subscribe(keys.clock, self._ticks)
         self._acks = bus.publisher(keys.clock_ack(name), qos=Qos.EVENT)
         self._lost = 0
+        self._doubts = 0
+        """Slices that still look for what counts as lost."""
         self._down_at = -1
         """Datagrams received when one was last given up: until another comes, the link counts as down."""
 
@@ -72,14 +78,20 @@ class Participant:
         self._ack(tick.slice)
 
     async def _await_datagrams(self, tick: ClockTick) -> None:
-        """Wait for what the simulation sent to this link; what has not come after a while counts as lost for good."""
+        """Wait for what the simulation sent to this link; what has not come after a while counts as lost.
+
+        What was only late must not stand for what came after it, or the link would stay behind by as much for good.
+        """
         expected = tick.datagrams.get(self._name, 0)
         if await self._is_down():
             self._lost = expected - self._received
             return
         arrived = self._hold(tick.slice, lambda: self._received + self._lost >= expected, self._traffic)
         if not await WALL.race(arrived, LOST_AFTER_S):
-            self._lost, self._down_at = expected - self._received, self._received
+            self._lost, self._down_at, self._doubts = expected - self._received, self._received, DOUBTS
+        elif self._lost and self._doubts:
+            await WALL.race(self._hold(tick.slice, lambda: self._received >= expected, self._traffic), LATE_S)
+            self._lost, self._doubts = max(0, expected - self._received), self._doubts - 1
 
     async def _is_down(self) -> bool:
         """Whether nothing has come since datagrams were given up; what waits in the socket is read first."""

@@ -228,3 +228,30 @@ async def test_a_link_that_is_down_delays_one_slice_and_is_waited_for_again_once
         assert (await stage.next_ack()).slice == 3
     finally:
         await ends(task)
+
+
+async def test_a_datagram_that_was_only_late_does_not_stand_for_a_later_one(
+    stage: Stage, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(lockstep_module, "LOST_AFTER_S", 0.1)
+    received = 1
+    follower = Participant(stage.robot, KEYS, "iris", stage.clock, counts=lambda: (0, received))
+    task = asyncio.ensure_future(follower.run())
+    try:
+        assert (await stage.next_ack()).slice == -1
+        stage.tick(1, datagrams=2)
+        assert (await stage.next_ack()).slice == 1, "the second is given up"
+        monkeypatch.setattr(lockstep_module, "LOST_AFTER_S", 60.0)
+        monkeypatch.setattr(lockstep_module, "LATE_S", 60.0)
+        received = 2
+        stage.tick(2, datagrams=3)
+        assert (await stage.next_ack()).holding, "the second has come; the third is still on its way"
+        received = 3
+        follower.notice_traffic()
+        while (done := await stage.next_ack()).holding:
+            pass
+        assert done.slice == 2
+        stage.tick(3, datagrams=4)
+        assert (await stage.next_ack()).holding, "nothing is lost any more"
+    finally:
+        await ends(task)
