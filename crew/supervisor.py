@@ -35,7 +35,7 @@ class Child(msgspec.Struct, frozen=True, kw_only=True):
     last: bool = False
     secrets: tuple[str, ...] = ()
     optional: bool = False
-    """Nobody waits until it is ready, and its failure is told as an exit, whenever it comes."""
+    """Nobody needs it: its failure is told as an exit, whenever it comes."""
     niceness: int = 0
     """Above 0 it leaves the processor to the others, its own imports included."""
     grace_s: float = STOP_GRACE_S
@@ -115,6 +115,12 @@ class Supervisor:
                 what = f"{running.child.name} is not ready: nothing after {ready_timeout_s} s"
                 raise CrewError(f"{what}; {_where(running)}")
             running.ready.result()
+
+    async def await_optional(self, timeout_s: float) -> None:
+        """Give those that nobody needs a while to become ready; whether they do is not said."""
+        waiting = [running.ready for running in self._running.values() if running.child.optional]
+        if waiting:
+            await asyncio.wait(waiting, timeout=timeout_s)
 
     async def restart(self, child: Child, *, ready_timeout_s: float) -> None:
         """End the child of this name if it lives, and start it anew."""

@@ -30,6 +30,8 @@ from crew.signing import load_or_create_key
 from crew.supervisor import Exit, Supervisor
 
 READY_S = 20.0
+RECORDER_S = 2.0
+"""Wall time for which a crew that is up waits for its recorder to listen, so that a first request is drawn whole."""
 OPERATOR, ORCHESTRATOR = "operator", "orchestrator"
 """Names of their signing keys."""
 UNSECURED = "UNSECURED: simulation only (--single-process: one process holds every role's key)"
@@ -112,6 +114,8 @@ async def live_crew(
         crew.view_port = view_port or 0
         names = [r.name for r in rules.crew.robots]
         crew.status = await await_ready(bus, crew.keys, names, timeout_s=READY_S, died=lambda: _first_exit(exits))
+        if isinstance(runner, Supervisor):
+            await runner.await_optional(RECORDER_S)
         yield crew
 
 

@@ -7,6 +7,7 @@ import time
 from pathlib import Path
 
 import pytest
+from msgspec.structs import replace
 
 from crew.errors import CrewError, UsageError
 from crew.supervisor import Child, Exit, Supervisor
@@ -60,6 +61,15 @@ async def test_a_bug_before_ready_is_named(supervisor: Supervisor) -> None:
 async def test_a_child_that_is_never_ready_is_quoted(supervisor: Supervisor) -> None:
     with pytest.raises(CrewError, match=r"actor is not ready: nothing after 1.0 s.*(\n.*)*still waiting for the"):
         await supervisor.start([child("never_ready")], ready_timeout_s=1.0)
+
+
+async def test_whom_nobody_needs_is_waited_for_a_while_only(supervisor: Supervisor, tmp_path: Path) -> None:
+    await supervisor.start([replace(child("wait", "late"), optional=True)], ready_timeout_s=READY_S)
+    await supervisor.await_optional(READY_S)
+    assert (tmp_path / "logs" / "late.log").read_text() == "behaves as wait\n"
+    await supervisor.start([replace(child("never_ready", "never"), optional=True)], ready_timeout_s=READY_S)
+    await supervisor.await_optional(0.05)
+    assert set(supervisor.pids) == {"late", "never"}
 
 
 async def test_a_child_that_speaks_nonsense_is_killed(supervisor: Supervisor) -> None:

@@ -17,8 +17,8 @@ from crew.study.launch import StudyCrew, study_crew
 from crew.study.mishaps import CREW, MISHAPS, Mishap, carry_out
 
 HEARD_S = 120.0
-BY_DEMO = ("tray_slip",)
-"""Tested with a process for every actor (tests/integration/crew/test_humanoid_quadruped.py)."""
+QUICK = ("object_dropped-near", "go2_falls-far", "g1_unavailable-near", "lease_held-far")
+"""The others take a minute together: `make soak`; `tray_slip` is also tested with a process for every actor."""
 Letters = Events[Letter[MissionEvent]]
 
 
@@ -28,7 +28,9 @@ def home() -> Iterator[Home]:
         yield Home(Path(folder))
 
 
-@pytest.mark.parametrize("mishap", [m for m in MISHAPS if m.fault not in BY_DEMO], ids=lambda m: m.name)
+@pytest.mark.parametrize(
+    "mishap", [pytest.param(m, id=m.name, marks=() if m.name in QUICK else pytest.mark.soak) for m in MISHAPS]
+)
 def test_a_mishap_ends_as_declared(mishap: Mishap, home: Home, tmp_path: Path) -> None:
     found = carry_out(mishap, home, tmp_path / "run")
     assert found.as_declared, found
