@@ -29,7 +29,7 @@ from crew.messages import CrewStatus, MissionEvent, RobotEvent, RobotState, SimT
 from crew.records import RECORDS, IntentRecord, Record
 
 CREW = Path(sys.executable).with_name("crew")
-NAME = "air_ground"
+NAME, OTHER = "air_ground", "humanoid_quadruped"
 UP_S = 40.0
 MISSION_S = 120.0
 SHORT_DRIVE = "send the rover to (-3, -3)"
@@ -104,6 +104,7 @@ class Up:
 
     def __init__(self, desk: Desk, args: tuple[str, ...]) -> None:
         self.desk = desk
+        self._crew = OTHER if OTHER in args else NAME
         self._terminal = desk.folder / f"terminal-{time.monotonic_ns()}"
         with self._terminal.open("wb") as output:
             self.process = subprocess.Popen(
@@ -128,7 +129,7 @@ class Up:
 
     @property
     def running(self) -> Running:
-        running = self.desk.home.running(NAME)
+        running = self.desk.home.running(self._crew)
         assert running is not None, self.said
         return running
 

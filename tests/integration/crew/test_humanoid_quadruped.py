@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from tests.integration.crew.harness import Desk, intents
+from tests.integration.crew.harness import Desk, intents, watching
 
 DELIVERED_M = 0.3
 CARRY = ["go2.navigate", "g1.pick_place", "go2.navigate"]
@@ -57,3 +57,19 @@ def test_what_must_not_be_done_moves_nothing(desk: Desk, request_: str, code: st
     assert (demo.code, demo.result["outcome"]) == (3, "rejected"), demo
     assert demo.result["code"] == code
     assert intents(demo.run) == []
+
+
+async def test_a_second_request_during_the_walk_waits_for_the_walker_and_not_for_the_arm(desk: Desk) -> None:
+    with desk.up("humanoid_quadruped", "--map", "far") as up:
+        async with watching(up.running) as watch:
+            first = watch.ask("send the dog to room_a")
+            await watch.moving("go2")
+            second, wave = watch.ask("send the dog to the charging station"), watch.ask("wave")
+            for request in (wave, first, second):
+                ended = await watch.ended(request)
+                assert ended.outcome == "completed", ended.text
+            finals = [e.request_id for e in watch.events if e.final]
+            assert finals.index(first) < finals.index(second), "one after the other"
+            assert any("waiting for robots" in e.text for e in watch.of(second))
+            assert not any("waiting for robots" in e.text for e in watch.of(wave)), "the arm was free"
+        assert intents(up.run) == ["go2.navigate", "g1.wave", "go2.navigate"]
