@@ -123,13 +123,23 @@ class WalkerSkills:
         still_s = 0.0
         while still_s < STILL_S:
             if run.since_s(start_ns) > STOPS_S:
-                raise AdapterError(
-                    f"{self._config.robot}: still moving {STOPS_S:g} s after StopMove", code="still_moving"
-                )
+                raise AdapterError(self._moving(), code="still_moving")
             self.send_stop()
             before_ns = self.robot.clock.now_ns()
             await run.tick()
             still_s = still_s + run.since_s(before_ns) if self.still_since(before_ns - 1) else 0.0
+
+    def _moving(self) -> str:
+        """What was seen last, against what counts as still."""
+        sample = self.robot.telemetry.sport
+        if sample is None:
+            return f"{self._config.robot}: no motion state {STOPS_S:g} s after StopMove"
+        seen, age_s = sample.value, (self.robot.clock.now_ns() - sample.stamp_ns) / 1e9
+        return (
+            f"{self._config.robot}: still moving {STOPS_S:g} s after StopMove: {seen.speed_mps:.2f} m/s, "
+            f"{abs(seen.yaw_speed):.2f} rad/s, seen {age_s:.2f} s ago; "
+            f"it must stay below {STILL_MPS:g} m/s and {STILL_RPS:g} rad/s for {STILL_S:g} s"
+        )
 
     async def _navigate(self, run: Run, name: str, places: Mapping[str, Place]) -> None:
         place = places.get("location")
