@@ -75,8 +75,13 @@ def _clear(relation: Relation, state: RobotState, robots: Mapping[str, RobotStat
 def _concerned(
     relation: Relation, state: RobotState, robots: Mapping[str, RobotState], rules: Rules
 ) -> Iterator[_Pose]:
-    """Where those are that the relation is about. One that was last seen standing on the ground still stands there."""
-    own = _pose(state)
+    """Where those are that the relation is about. One that was last seen standing on the ground still stands there.
+
+    A robot that stands on the ground itself has nobody below it.
+    """
+    own, airborne = _pose(state), state.fluents.get("airborne")
+    if relation is Relation.COLUMN_BELOW and airborne is not None and airborne.value is False:
+        return
     for other in robots.values():
         kind = rules.kind_of(other.name)
         if other.name == state.name or kind is None or not other.fluents:

@@ -62,6 +62,14 @@ def test_a_drone_that_does_not_come_down_stands_in_nobodys_way() -> None:
     assert value(relations(drone(0.0, 0.0, descending=True), under)["tb3"]) is False
 
 
+def test_a_drone_that_stands_has_nobody_below_it() -> None:
+    beside = tb3(at=Point(0.5, 0.0))
+    assert value(relations(drone(0.0, 0.0, airborne=False), beside)["iris"]) is True
+    untold = drone(0.0, 0.0)
+    untold = replace(untold, fluents={n: s for n, s in untold.fluents.items() if n != "airborne"})
+    assert value(relations(untold, beside)["iris"]) is False, "the worse is taken"
+
+
 def test_what_a_drone_does_not_tell_is_taken_for_the_worse() -> None:
     silent = drone(0.0, 0.0)
     silent = replace(silent, fluents={"at": silent.fluents["at"]})
