@@ -4,6 +4,7 @@ A walk is a stream of Moves, each good for a moment only; it ends when telemetry
 """
 
 import math
+from collections import deque
 from collections.abc import Mapping
 
 from crew.adapter import AdapterConfig, Place, Reading
@@ -45,6 +46,33 @@ LOST_S = 0.8
 """A load that the tray's sensor has not felt for so long has fallen out."""
 BODY_BEHIND_M, BODY_RADIUS_M = 0.6, 0.2
 """Where a person stands behind the hand that they hold out."""
+
+
+class Rest:
+    """The motion of the last moments, root mean square: a robot that stands still is shaken now and then."""
+
+    def __init__(self) -> None:
+        self._seen: deque[tuple[float, float, float]] = deque()
+
+    def take(self, state: SportState | None, seconds: float) -> None:
+        """What was seen over so many seconds; after a time in which nothing was seen it begins anew."""
+        if state is None:
+            self._seen.clear()
+            return
+        self._seen.append((seconds, state.speed_mps, state.yaw_speed))
+        while self._seconds - self._seen[0][0] >= STILL_S:
+            self._seen.popleft()
+
+    @property
+    def is_still(self) -> bool:
+        if self._seconds < STILL_S:
+            return False
+        speed, turn = (math.sqrt(sum(s[0] * s[axis] ** 2 for s in self._seen) / self._seconds) for axis in (1, 2))
+        return speed < STILL_MPS and turn < STILL_RPS
+
+    @property
+    def _seconds(self) -> float:
+        return sum(seen[0] for seen in self._seen)
 
 
 class WalkerSkills:
@@ -120,14 +148,16 @@ class WalkerSkills:
     async def stop(self, run: Run) -> None:
         """Stop, again and again until it has stood still for a moment. A robot that has fallen lies still."""
         start_ns = self.robot.clock.now_ns()
-        still_s = 0.0
-        while still_s < STILL_S:
+        rest = Rest()
+        while not rest.is_still:
             if run.since_s(start_ns) > STOPS_S:
                 raise AdapterError(self._moving(), code="still_moving")
             self.send_stop()
             before_ns = self.robot.clock.now_ns()
             await run.tick()
-            still_s = still_s + run.since_s(before_ns) if self.still_since(before_ns - 1) else 0.0
+            sample = self.robot.telemetry.sport
+            fresh = sample is not None and sample.stamp_ns >= before_ns
+            rest.take(sample.value if sample is not None and fresh else None, run.since_s(before_ns))
 
     def _moving(self) -> str:
         """What was seen last, against what counts as still."""
@@ -138,7 +168,7 @@ class WalkerSkills:
         return (
             f"{self._config.robot}: still moving {STOPS_S:g} s after StopMove: {seen.speed_mps:.2f} m/s, "
             f"{abs(seen.yaw_speed):.2f} rad/s, seen {age_s:.2f} s ago; "
-            f"it must stay below {STILL_MPS:g} m/s and {STILL_RPS:g} rad/s for {STILL_S:g} s"
+            f"their root mean square over {STILL_S:g} s must be below {STILL_MPS:g} m/s and {STILL_RPS:g} rad/s"
         )
 
     async def _navigate(self, run: Run, name: str, places: Mapping[str, Place]) -> None:
