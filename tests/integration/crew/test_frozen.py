@@ -140,8 +140,9 @@ async def test_robots_of_a_frozen_orchestrator_make_themselves_safe_and_it_sends
     watch: Watch, up: Up, desk: Desk
 ) -> None:
     requests = await both_moving(watch)
-    sent, count = len(intents(up.run)), len(watch.robot_events)
+    count = len(watch.robot_events)
     async with frozen(watch, up, "orchestrator"):
+        sent = len(intents(up.run))
         await watch.until(lambda: set(BOTH) <= missed_it(watch, count), why="both robots notice")
         await watch.standing("tb3")
         await watch.landed("iris")
