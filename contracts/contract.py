@@ -134,6 +134,11 @@ class Contract(msgspec.Struct, frozen=True, kw_only=True, dict=True):
         return digest(msgspec.structs.replace(self, source=""))
 
     @cached_property
+    def has_claims(self) -> bool:
+        """Whether the request alone may bind a slot: one that says where something is from."""
+        return any(slot.said_from for slot in self.slots)
+
+    @cached_property
     def _step_by_name(self) -> dict[str, Step]:
         return {s.name: s for s in self.steps}
 

@@ -9,7 +9,7 @@ from msgspec.structs import replace
 
 from crew.contracts.contract import Contract
 from crew.contracts.plan import Zone, digest
-from crew.contracts.skill import Fluent, Kind, Part, Published
+from crew.contracts.skill import Fluent, Kind, Part, Published, Skill
 
 
 class RobotSpec(msgspec.Struct, frozen=True, kw_only=True):
@@ -130,8 +130,13 @@ class Rules(msgspec.Struct, frozen=True, kw_only=True, dict=True):
     def kind_of(self, robot: str) -> Kind | None:
         return self._kind_by_robot.get(robot)
 
+    def skill_of(self, robot: str, name: str) -> Skill | None:
+        """A robot's skill; None for a robot that the crew does not have, and for a skill that its kind does not."""
+        kind = self._kind_by_robot.get(robot)
+        return None if kind is None else kind.skill(name)
+
     def fluent_of(self, robot: str, name: str) -> Fluent | None:
-        kind = self.kind_of(robot)
+        kind = self._kind_by_robot.get(robot)
         return None if kind is None else kind.fluent(name)
 
     def publication(self, robot: str, value: str) -> Published | None:

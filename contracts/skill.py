@@ -160,6 +160,26 @@ class Skill(msgspec.Struct, frozen=True, kw_only=True, dict=True):
         return _params(self.args)
 
     @cached_property
+    def targets(self) -> tuple[Param, ...]:
+        """The arguments whose place may be known at run time alone."""
+        return tuple(p for p in self.params if p.entity is Entity.TARGET)
+
+    @cached_property
+    def required(self) -> tuple[str, ...]:
+        """The arguments that every call gives."""
+        return tuple(p.name for p in self.params if not p.optional)
+
+    @cached_property
+    def optional(self) -> frozenset[str]:
+        """The arguments of which a call gives one form."""
+        return frozenset(p.name for p in self.params if p.optional)
+
+    @cached_property
+    def form_sets(self) -> frozenset[frozenset[str]]:
+        """The forms, in whatever order their arguments come."""
+        return frozenset(map(frozenset, self.forms))
+
+    @cached_property
     def _param_by_name(self) -> dict[str, Param]:
         return {p.name: p for p in self.params}
 
@@ -187,6 +207,11 @@ class Kind(msgspec.Struct, frozen=True, kw_only=True, dict=True):
     @cached_property
     def _fluent_by_name(self) -> dict[str, Fluent]:
         return {f.name: f for f in self.fluents}
+
+    @cached_property
+    def own_fluents(self) -> tuple[Fluent, ...]:
+        """What a robot's own telemetry tells; the rest are facts between robots."""
+        return tuple(f for f in self.fluents if f.relation is None)
 
     def skill(self, name: str) -> Skill | None:
         return self._skill_by_name.get(name)

@@ -48,15 +48,14 @@ def _problems(call: Call, skill: Skill, rules: Rules) -> Iterator[Refusal]:
 
 
 def _missing(call: Call, skill: Skill) -> Refusal | None:
-    for param in skill.params:
-        if not param.optional and param.name not in call.args:
-            return _argument(Code.MISSING_ARGUMENT, call, param.name, "nothing", "a value", "is missing")
-    given = {name for name in call.args if (p := skill.param(name)) and p.optional}
-    forms = [set(form) for form in skill.forms]
-    if given in forms:
+    for name in skill.required:
+        if name not in call.args:
+            return _argument(Code.MISSING_ARGUMENT, call, name, "nothing", "a value", "is missing")
+    given = skill.optional.intersection(call.args)
+    if given in skill.form_sets:
         return None
     shown = " or ".join(", ".join(form) or "nothing" for form in skill.forms)
-    partial = any(given < form for form in forms)
+    partial = any(given < form for form in skill.form_sets)
     code = Code.MISSING_ARGUMENT if partial else Code.UNKNOWN_ARGUMENT
     return _argument(code, call, "", ", ".join(sorted(given)) or "nothing", shown, "takes another set of arguments")
 

@@ -27,12 +27,17 @@ class Truth(StrEnum):
 
 
 class Verdict(msgspec.Struct, frozen=True):
-    """A guard's value, with what was observed and how old it was."""
+    """A guard's value, with what was seen and how old it was."""
 
     truth: Truth
-    observed: str = "nothing"
+    seen: FluentValue = "nothing"
     age_s: float | None = None
     max_age_s: float | None = None
+
+    @property
+    def observed(self) -> str:
+        """What was seen, as people write it."""
+        return f"({self.seen.x:.2f}, {self.seen.y:.2f})" if isinstance(self.seen, Point) else show(self.seen)
 
 
 class Scope(msgspec.Struct, frozen=True, kw_only=True):
@@ -69,11 +74,6 @@ def evaluate(condition: Condition, scope: Scope) -> Verdict:
     return _compare(condition.path, wanted, condition.negated, scope)
 
 
-def robot_fluent_is(robot: str, fluent: str, wanted: FluentValue, scope: Scope) -> Verdict:
-    """Whether one robot's fluent has a value: for a skill's own preconditions and for safe states."""
-    return _robot_fluent(robot, fluent, wanted, scope)
-
-
 def _as_fluent(value: SlotValue) -> FluentValue:
     if isinstance(value, Spot):
         return Point(value.x, value.y)
@@ -83,7 +83,7 @@ def _as_fluent(value: SlotValue) -> FluentValue:
 def _compare(path: str, wanted: FluentValue, negated: bool, scope: Scope) -> Verdict:
     head, _, attribute = path.partition(".")
     if head in scope.roles and attribute:
-        verdict = _robot_fluent(scope.roles[head], attribute, wanted, scope)
+        verdict = robot_fluent_is(scope.roles[head], attribute, wanted, scope)
     else:
         verdict = value_is(value_name(path, scope), attribute, wanted, scope)
     if not negated or verdict.truth in (Truth.ABSENT, Truth.STALE):
@@ -99,18 +99,19 @@ def value_name(path: str, scope: Scope) -> str:
     return bound if isinstance(bound, str) else head
 
 
-def _robot_fluent(robot: str, name: str, wanted: FluentValue, scope: Scope) -> Verdict:
+def robot_fluent_is(robot: str, name: str, wanted: FluentValue, scope: Scope) -> Verdict:
+    """Whether one robot's fluent has a value."""
     declared = scope.rules.fluent_of(robot, name)
     state = scope.world.robots.get(robot)
     stamped = None if state is None else state.fluents.get(name)
     if declared is None or stamped is None or not _finite(stamped.value):
-        return Verdict(Truth.ABSENT, "nothing" if stamped is None else _observed(stamped.value))
+        return Verdict(Truth.ABSENT, "nothing" if stamped is None else stamped.value)
     age_s = age(stamped.source_ns, scope.now_ns)
     if not 0.0 <= age_s <= declared.max_age_s:
-        return Verdict(Truth.STALE, _observed(stamped.value), age_s, declared.max_age_s)
+        return Verdict(Truth.STALE, stamped.value, age_s, declared.max_age_s)
     same = stamped.value == wanted  # two objects at one place are still two
     held = _equal(stamped.value, wanted, declared.tolerance_m, scope) if declared.domain == "place" else same
-    return Verdict(Truth.HOLDS if held else Truth.FAILS, _observed(stamped.value), age_s, declared.max_age_s)
+    return Verdict(Truth.HOLDS if held else Truth.FAILS, stamped.value, age_s, declared.max_age_s)
 
 
 def value_is(name: str, attribute: str, wanted: FluentValue, scope: Scope) -> Verdict:
@@ -121,12 +122,12 @@ def value_is(name: str, attribute: str, wanted: FluentValue, scope: Scope) -> Ve
     seen = _attribute(stamped.reading, attribute)
     declared = scope.rules.publication(stamped.source, name)
     if declared is None or seen is None or not _finite(seen):
-        return Verdict(Truth.ABSENT, stamped.reading.status if seen is None else _observed(seen))
+        return Verdict(Truth.ABSENT, stamped.reading.status if seen is None else seen)
     age_s = age(stamped.reading.stamp_ns, scope.now_ns)
     if not 0.0 <= age_s <= declared.max_age_s:
-        return Verdict(Truth.STALE, _observed(seen), age_s, declared.max_age_s)
+        return Verdict(Truth.STALE, seen, age_s, declared.max_age_s)
     held = _equal(seen, wanted, declared.tolerance_m, scope)
-    return Verdict(Truth.HOLDS if held else Truth.FAILS, _observed(seen), age_s, declared.max_age_s)
+    return Verdict(Truth.HOLDS if held else Truth.FAILS, seen, age_s, declared.max_age_s)
 
 
 def _attribute(reading: ValueReading, name: str) -> FluentValue | None:
@@ -148,10 +149,6 @@ def _finite(value: FluentValue) -> bool:
     if isinstance(value, Point):
         return all(map(math.isfinite, (value.x, value.y, value.z)))
     return not isinstance(value, float) or math.isfinite(value)
-
-
-def _observed(value: FluentValue) -> str:
-    return f"({value.x:.2f}, {value.y:.2f})" if isinstance(value, Point) else show(value)
 
 
 def _equal(observed: FluentValue, wanted: FluentValue, tolerance_m: float, scope: Scope) -> bool:

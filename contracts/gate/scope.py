@@ -24,7 +24,7 @@ def scope_of(mission: MissionState, world: Snapshot, rules: Rules, now_ns: int) 
 def _with_claims(reading: Reading, instance: Instance, rules: Rules) -> Mapping[str, SlotValue]:
     """The slots as the plan binds them, and those that only the request binds, such as a claimed origin."""
     contract = rules.contracts.get(instance.contract)
-    if contract is None or not any(slot.said_from for slot in contract.slots):
+    if contract is None or not contract.has_claims:
         return instance.slots
     return {**claims(reading, contract, rules), **instance.slots}
 
@@ -42,8 +42,7 @@ def pins_of(mission: MissionState) -> dict[str, Point]:
 
 def skill_of(call: Call, rules: Rules) -> Skill:
     """The declaration of a call that passed the capability check."""
-    kind = rules.kind_of(call.robot)
-    skill = None if kind is None else kind.skill(call.skill)
+    skill = rules.skill_of(call.robot, call.skill)
     assert skill is not None, f"{call} passed the capability check"
     return skill
 

@@ -105,15 +105,15 @@ def _check_freshness(call: Call, world: Snapshot, rules: Rules, now_ns: int, pur
     assert kind is not None
     fluents = world.robots[call.robot].fluents
     watched = skill_of(call, rules).effects if purpose is Purpose.SAFE else fluents
-    own = [f for f in kind.fluents if f.relation is None and f.name in watched]
-    heard = [(f, fluents[f.name]) for f in own if f.name in fluents]
-    if not heard:
-        return _stale(call, call.robot, "nothing heard yet", "fresh telemetry")
-    for declared, stamped in heard:
-        age_s = age(stamped.source_ns, now_ns)
+    heard = False
+    for declared in kind.own_fluents:
+        stamped = fluents.get(declared.name)
+        if stamped is None or declared.name not in watched:
+            continue
+        heard, age_s = True, age(stamped.source_ns, now_ns)
         if not 0.0 <= age_s <= declared.max_age_s:
             return _stale(call, f"{call.robot}.{declared.name}", f"{age_s:.1f} s old", f"{declared.max_age_s:g} s")
-    return None
+    return None if heard else _stale(call, call.robot, "nothing heard yet", "fresh telemetry")
 
 
 def _stale(call: Call, field: str, observed: str, allowed: str) -> Refusal:
@@ -136,7 +136,7 @@ def _guards(step: str, mission: MissionState, scope: Scope) -> Iterator[Refusal]
     contract = scope.rules.contracts[mission.instance.contract]
     declared = contract.step(step)
     assert declared is not None
-    entry = () if mission.sent_any else contract.needs
+    entry = contract.needs if contract.needs and not mission.sent_any else ()
     for condition in (*entry, *declared.needs):
         verdict = evaluate(condition, scope)
         if verdict.truth is not Truth.HOLDS:

@@ -10,7 +10,6 @@ from crew.contracts.mission_state import MissionState
 from crew.contracts.plan import Call, InstanceStep, Zone
 from crew.contracts.refusal import Refusal
 from crew.contracts.site import Rules
-from crew.contracts.skill import Entity
 from crew.contracts.snapshot import Point, Snapshot, StampedValue
 
 
@@ -19,9 +18,9 @@ def check_values(
 ) -> Refusal | dict[str, Point]:
     """Every symbolic argument as the place it means now, or the refusal of the first that means none."""
     places: dict[str, Point] = {}
-    for param in skill_of(call, rules).params:
+    for param in skill_of(call, rules).targets:
         name = call.args.get(param.name)
-        if param.entity is not Entity.TARGET or not isinstance(name, str):
+        if not isinstance(name, str):
             continue
         location = rules.crew.location(name)
         if location is not None:
