@@ -23,6 +23,17 @@ class Refused(msgspec.Struct, frozen=True):
     """The orchestrator's own word, heard for the first time: the refusal answers it."""
 
 
+class _Heard(msgspec.Struct):
+    """The sequences of one mission in one epoch that were heard."""
+
+    sequences: set[int]
+    last: int = 0
+
+    def spend(self, sequence: int) -> None:
+        self.sequences.add(sequence)
+        self.last = max(self.last, sequence)
+
+
 class Admission:
     """What this robot remembers about commands: its boot, the newest epoch and lease, every sequence that it heard."""
 
@@ -36,7 +47,7 @@ class Admission:
         self._second_check = second_check
         self._contracts = {contract.digest for contract in rules.contracts.values()}
         self._fence = 0
-        self._spent: dict[tuple[int, str], list[int]] = {}
+        self._spent: dict[tuple[int, str], _Heard] = {}
 
     def hear_epoch(self, epoch: int) -> None:
         """An orchestrator with this epoch lives; commands of older ones are refused from now on."""
@@ -50,7 +61,7 @@ class Admission:
             self.refused_permits += 1
             return refused
         self.hear_epoch(dispatch.epoch)
-        self._spend(dispatch.epoch, dispatch.mission, dispatch.sequence)
+        self._heard(dispatch).spend(dispatch.sequence)
         refused = (
             self._check_lease(dispatch)
             or _check_time(dispatch, now_ns)
@@ -68,8 +79,7 @@ class Admission:
         if refused is not None:
             self.refused_permits += 1
             return refused
-        if cancel.sequence not in self._heard(cancel):
-            self._spend(cancel.epoch, cancel.mission, cancel.sequence)
+        self._heard(cancel).spend(cancel.sequence)
         return None
 
     def _check_sender(self, command: Dispatch | CancelSkill) -> Refused | None:
@@ -86,10 +96,10 @@ class Admission:
 
     def _check_once(self, dispatch: Dispatch) -> Refused | None:
         heard = self._heard(dispatch)
-        if dispatch.sequence in heard:
+        if dispatch.sequence in heard.sequences:
             return Refused("replayed", f"sequence {dispatch.sequence} of {dispatch.mission} was heard before")
-        if dispatch.sequence < (last := max(heard, default=0)):
-            return Refused("reordered", f"sequence {dispatch.sequence} of {dispatch.mission} came after {last}")
+        if dispatch.sequence < heard.last:
+            return Refused("reordered", f"sequence {dispatch.sequence} of {dispatch.mission} came after {heard.last}")
         return None
 
     def _check_lease(self, dispatch: Dispatch) -> Refused | None:
@@ -110,13 +120,14 @@ class Admission:
         refusal = check_call(Call(dispatch.robot, dispatch.skill, dispatch.args), self._rules)
         return None if refusal is None else Refused(refusal.code, refusal.message)
 
-    def _heard(self, command: Dispatch | CancelSkill) -> list[int]:
-        return self._spent.get((command.epoch, command.mission), [])
-
-    def _spend(self, epoch: int, mission: str, sequence: int) -> None:
-        if len(self._spent) >= MAX_REMEMBERED and (epoch, mission) not in self._spent:
+    def _heard(self, command: Dispatch | CancelSkill) -> _Heard:
+        """What is remembered of a rightful command's mission; the oldest mission makes room for a new one."""
+        key = (command.epoch, command.mission)
+        if (known := self._spent.get(key)) is not None:
+            return known
+        if len(self._spent) >= MAX_REMEMBERED:
             del self._spent[next(iter(self._spent))]
-        self._spent.setdefault((epoch, mission), []).append(sequence)
+        return self._spent.setdefault(key, _Heard(set()))
 
 
 def _check_time(dispatch: Dispatch, now_ns: int) -> Refused | None:
