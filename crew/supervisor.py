@@ -68,13 +68,16 @@ class _Running:
 class Supervisor:
     """Owns its children for the time of an `async with`, on the main thread; none survives it.
 
-    `on_exit` is called on the loop within 0.2 s of the death of a child that had become ready. Children write to
+    `on_exit` is called on the loop within 0.2 s of the death of a child that had become ready. `meanwhile` is called in
+    a thread while those that are last end: everybody else has ended by then. Children write to
     `<run folder>/logs/<name>.log`.
     """
 
-    def __init__(self, run_folder: Path, *, on_exit: Callable[[Exit], None]) -> None:
+    def __init__(
+        self, run_folder: Path, *, on_exit: Callable[[Exit], None], meanwhile: Callable[[], None] = lambda: None
+    ) -> None:
         self._folder = run_folder
-        self._on_exit = on_exit
+        self._on_exit, self._meanwhile = on_exit, meanwhile
         self._running: dict[str, _Running] = {}
         self._group = asyncio.TaskGroup()
         self._secrets: set[str] = set()
@@ -131,7 +134,11 @@ class Supervisor:
     async def stop(self, *, pressed: bool = True) -> None:
         """End every child: the clients together, then those that are last; a stuck one is killed after its grace."""
         await self._end([running for running in self._running.values() if not running.child.last], pressed)
-        await self._end(list(self._running.values()), pressed)
+        meanwhile = asyncio.ensure_future(asyncio.to_thread(self._meanwhile))
+        try:
+            await self._end(list(self._running.values()), pressed)
+        finally:
+            await meanwhile
 
     def _spawn(self, child: Child) -> _Running:
         if child.name in self._running:

@@ -85,7 +85,7 @@ async def live_crew(
     run_folder = new_run_folder(options.runs, rules.crew.name)
     exits: asyncio.Queue[Exit] = asyncio.Queue()
     async with AsyncExitStack() as stack:
-        stack.enter_context(reported(run_folder, home))
+        report = stack.enter_context(reported(run_folder, home))
         endpoint = f"tls/127.0.0.1:{free_tcp_port()}"
         running = stack.enter_context(home.claim(rules.crew.name, run_folder, endpoint, guests))
         _write_resolved(rules, options, run_folder)
@@ -106,7 +106,7 @@ async def live_crew(
 
             runner: Supervisor | SingleProcess = SingleProcess(run_folder)
         else:
-            runner = Supervisor(run_folder, on_exit=exits.put_nowait)
+            runner = Supervisor(run_folder, on_exit=exits.put_nowait, meanwhile=report)
         await stack.enter_async_context(runner)
         await runner.start(children, ready_timeout_s=READY_S)
         bus = await stack.enter_async_context(ZenohBus(running.link(OPERATOR)))

@@ -1,7 +1,7 @@
-"""The report that every run leaves behind, written once everybody has ended. It never spoils the end of a run."""
+"""The report that every run leaves behind, written once its journal is closed. It never spoils the end of a run."""
 
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -17,12 +17,22 @@ MOST = 20
 
 
 @contextmanager
-def reported(run_folder: Path, home: Home) -> Iterator[None]:
-    """Write the run's report on the way out. What goes wrong with it is said, and changes nothing else."""
-    try:
-        yield
-    finally:
+def reported(run_folder: Path, home: Home) -> Iterator[Callable[[], None]]:
+    """Write the run's report on the way out, if the function that is given was not called before; from any thread.
+
+    What goes wrong with it is said, and changes nothing else.
+    """
+    remark: str | None = None
+
+    def write() -> None:
+        nonlocal remark
         remark = _write(run_folder, home)
+
+    try:
+        yield write
+    finally:
+        if remark is None:
+            write()
         if remark:
             print(f"no report yet: {remark}; make it with crew report {run_folder}", file=sys.stderr)
 
@@ -37,7 +47,7 @@ def _write(run_folder: Path, home: Home) -> str:
     from crew.report.page import write_report
 
     try:
-        write_report(run_folder, home, most=MOST)
+        write_report(run_folder, home, most=MOST, ended=True)
     except (CrewError, OSError) as error:
         return str(error)
     except Exception as error:

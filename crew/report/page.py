@@ -18,15 +18,22 @@ _POLICY = "default-src 'none'; style-src 'unsafe-inline'"
 
 
 def write_report(
-    folder: Path, home: Home, *, key_file: Path | None = None, to: Path | None = None, most: int = MAX_MISSIONS
+    folder: Path,
+    home: Home,
+    *,
+    key_file: Path | None = None,
+    to: Path | None = None,
+    most: int = MAX_MISSIONS,
+    ended: bool = False,
 ) -> tuple[Path, bool]:
     """Write the page, by default into the run's folder; its path, and whether the run verifies.
 
     `most`: of so many missions, the last ones, everything is told; of the others how they ended.
+    `ended`: nobody writes into the run any more, though its crew's name may still be held.
     Raises UsageError if there is no run, and OSError if the page can't be written.
     """
     history, report = read_history(folder, home, key_file=key_file)
-    text = page(history, report, folder, running=home.goes_on(folder), most=most)
+    text = page(history, report, folder, running=not ended and home.goes_on(folder), most=most)
     path = folder / REPORT if to is None else to
     replace_file(path, text.encode("utf-8"), durable=False)
     return path, report.holds

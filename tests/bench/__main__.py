@@ -68,8 +68,9 @@ def stops() -> Iterator[Row]:
 def round_trips() -> Iterator[Row]:
     """A dispatch beside raw Zenoh."""
     times = roundtrip.measure(1000)
-    floor_us, dispatch_us = median(times.raw), median(times.dispatch)
+    floor_us, same_us, dispatch_us = median(times.raw), median(times.same), median(times.dispatch)
     signed_us = median(a + b for a, b in zip(times.dispatch, times.signature, strict=True))
+    yield at_most("dispatch's put to accepted / raw Zenoh, same router, p50", dispatch_us / same_us, 1.5, "x")
     yield at_most("dispatch's put to accepted, locked / raw Zenoh, open router, p50", dispatch_us / floor_us, 1.9, "x")
     yield at_most("  with the signature, which is made before the intent is written", signed_us / floor_us, 2.2, "x")
     yield at_most("  raw Zenoh round trip, p50", floor_us, 5000, "us")

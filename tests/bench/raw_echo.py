@@ -9,23 +9,23 @@ from crew.bus.link import Link
 from crew.bus.session import open_session
 from crew.process import ChildContext, run_child
 
-ASK = "bench/raw/ask"
-ANSWER = "bench/raw/answer"
-
 
 class EchoSpec(msgspec.Struct, frozen=True):
-    """Where the router is."""
+    """Its way to the router, the key that it hears and the one that it answers on."""
 
-    router: str
+    link: Link
+    ask: str
+    answer: str
 
 
 async def main(context: ChildContext) -> None:
     """Echo until asked to stop."""
-    session = await asyncio.to_thread(open_session, Link(role="echo", endpoint=context.spec(EchoSpec).router))
+    spec = context.spec(EchoSpec)
+    session = await asyncio.to_thread(open_session, spec.link)
     publisher = session.declare_publisher(
-        ANSWER, congestion_control=zenoh.CongestionControl.BLOCK, priority=zenoh.Priority.REAL_TIME, express=True
+        spec.answer, congestion_control=zenoh.CongestionControl.BLOCK, priority=zenoh.Priority.REAL_TIME, express=True
     )
-    session.declare_subscriber(ASK, lambda sample: publisher.put(sample.payload))
+    session.declare_subscriber(spec.ask, lambda sample: publisher.put(sample.payload))
     context.ready()
     try:
         await asyncio.get_running_loop().create_future()

@@ -1,6 +1,6 @@
-"""From a dispatch's put to the robot's accepted event through the locked router, beside raw Zenoh through an open one.
+"""From a dispatch's put to the robot's accepted event through the locked router, beside raw Zenoh.
 
-Both are measured in turns, in one run.
+Raw Zenoh goes through the same router, with a robot's certificate, and through an open one. All in turns, in one run.
 """
 
 import asyncio
@@ -31,13 +31,17 @@ from crew.router import RouterSpec
 from crew.signing import SigningKey
 from crew.supervisor import Child, Supervisor
 from crew.wire import encode
-from tests.bench.raw_echo import ANSWER, ASK, EchoSpec
+from tests.bench.raw_echo import EchoSpec
 from tests.bench.robot_child import ROBOT, IdleSpec
 from tests.open_router import OpenRouterSpec
 
 KEYS = Keys("air_ground")
 KEY = SigningKey(bytes(32))
 ORCHESTRATOR = str(Role.ORCHESTRATOR)
+ECHO = "echo"
+"""A robot that is none: it answers raw samples through the locked router."""
+OPEN_KEYS = ("bench/raw/ask", "bench/raw/answer")
+LOCKED_KEYS = (KEYS.act(ECHO, "echo"), KEYS.robot_value(ECHO, "echo"))
 WARM_UP = 50
 BEAT_EVERY_NS = 500_000_000
 """Well within the time after which a robot takes its orchestrator for lost, on a machine that is busy as well."""
@@ -47,33 +51,38 @@ class Times(NamedTuple):
     """Microseconds, round by round."""
 
     raw: list[float]
+    """Through the open router."""
+    same: list[float]
+    """Raw Zenoh through the router that the dispatches go through."""
     dispatch: list[float]
     """From the put of a signed dispatch to its accepted event."""
     signature: list[float]
 
 
 def measure(rounds: int) -> Times:
-    """Raw Zenoh and dispatches, in turns."""
+    """Raw Zenoh, twice, and dispatches, in turns."""
     os.environ["PYTHONPATH"] = str(Path(__file__).parents[2])
     with asyncio.Runner(loop_factory=uvloop.new_event_loop) as runner:
         return runner.run(_measure(rounds))
 
 
 async def _measure(rounds: int) -> Times:
-    floor = f"tcp/127.0.0.1:{free_tcp_port()}"
+    floor = Link(role="bench", endpoint=f"tcp/127.0.0.1:{free_tcp_port()}")
     with tempfile.TemporaryDirectory() as folder:
         certificates = Path(folder) / "certificates"
-        establish(certificates, [ROUTER, ORCHESTRATOR, f"{ROBOT_PREFIX}{ROBOT}"])
+        establish(certificates, [ROUTER, ORCHESTRATOR, f"{ROBOT_PREFIX}{ROBOT}", f"{ROBOT_PREFIX}{ECHO}"])
         endpoint = f"tls/127.0.0.1:{free_tcp_port()}"
 
         def link(role: str) -> Link:
             return Link(role=role, endpoint=endpoint, crew=KEYS.crew, certificates=str(certificates))
 
-        router = RouterSpec(link=link(ROUTER), robots=(ROBOT,))
+        router = RouterSpec(link=link(ROUTER), robots=(ROBOT, ECHO))
+        locked_echo = EchoSpec(link(f"{ROBOT_PREFIX}{ECHO}"), *LOCKED_KEYS)
         children = [
-            Child(name="open router", module="tests.open_router", spec=OpenRouterSpec(floor), last=True),
+            Child(name="open router", module="tests.open_router", spec=OpenRouterSpec(floor.endpoint), last=True),
             Child(name="router", module="crew.router", spec=router, last=True),
-            Child(name="echo", module="tests.bench.raw_echo", spec=EchoSpec(floor)),
+            Child(name="echo", module="tests.bench.raw_echo", spec=EchoSpec(floor, *OPEN_KEYS)),
+            Child(name="locked echo", module="tests.bench.raw_echo", spec=locked_echo),
             Child(
                 name="robot",
                 module="tests.bench.robot_child",
@@ -83,23 +92,25 @@ async def _measure(rounds: int) -> Times:
         async with Supervisor(Path(folder), on_exit=print) as supervisor:
             await supervisor.start(children, ready_timeout_s=20.0)
             async with ZenohBus(link(ORCHESTRATOR)) as bus:
-                session = await asyncio.to_thread(open_session, Link(role="bench", endpoint=floor))
+                sessions = [await asyncio.to_thread(open_session, way) for way in (floor, link(ORCHESTRATOR))]
+                raw, same = RawPing(sessions[0], *OPEN_KEYS), RawPing(sessions[1], *LOCKED_KEYS)
                 try:
-                    return await _interleave(bus, RawPing(session), rounds)
+                    return await _interleave(bus, raw, same, rounds)
                 finally:
-                    await asyncio.to_thread(session.close)
+                    for session in sessions:
+                        await asyncio.to_thread(session.close)
 
 
 class RawPing:
     """One raw sample there and back; the clock stops in Zenoh's own callback."""
 
-    def __init__(self, session: zenoh.Session) -> None:
+    def __init__(self, session: zenoh.Session, ask: str, answer: str) -> None:
         self._publisher = session.declare_publisher(
-            ASK, congestion_control=zenoh.CongestionControl.BLOCK, priority=zenoh.Priority.REAL_TIME, express=True
+            ask, congestion_control=zenoh.CongestionControl.BLOCK, priority=zenoh.Priority.REAL_TIME, express=True
         )
         self._back = threading.Event()
         self._ended_ns = 0
-        session.declare_subscriber(ANSWER, self._answered)
+        session.declare_subscriber(answer, self._answered)
 
     def ping(self, payload: bytes) -> float:
         """Microseconds."""
@@ -176,15 +187,17 @@ class Trips:
             self._ended.set_exception(RuntimeError(f"the robot answered {event.what}: {event.detail}"))
 
 
-async def _interleave(bus: ZenohBus, raw: RawPing, rounds: int) -> Times:
+async def _interleave(bus: ZenohBus, raw: RawPing, same: RawPing, rounds: int) -> Times:
     dispatches = Trips(bus)
     payload = await dispatches.ready()
-    times = Times([], [], [])
+    times = Times([], [], [], [])
     for number in range(rounds + WARM_UP):
-        floor_us = await asyncio.to_thread(raw.ping, payload)
+        raw_us = await asyncio.to_thread(raw.ping, payload)
+        same_us = await asyncio.to_thread(same.ping, payload)
         dispatch_us, signature_us = await dispatches.trip()
         if number >= WARM_UP:
-            times.raw.append(floor_us)
+            times.raw.append(raw_us)
+            times.same.append(same_us)
             times.dispatch.append(dispatch_us)
             times.signature.append(signature_us)
     return times

@@ -112,6 +112,20 @@ async def test_a_frozen_child_is_gone_within_2_s(tmp_path: Path) -> None:
     assert time.monotonic() - began < 2.0
 
 
+async def test_what_is_done_meanwhile_has_the_clients_behind_it_and_does_not_wait_for_the_last(tmp_path: Path) -> None:
+    pids: dict[str, int] = {}
+    lived: list[dict[str, bool]] = []
+
+    def meanwhile() -> None:
+        lived.append({name: lives(pid) for name, pid in pids.items()})
+
+    async with Supervisor(tmp_path, on_exit=lambda end: None, meanwhile=meanwhile) as supervisor:
+        last = replace(child("stuck", "last"), last=True)
+        await supervisor.start([child("wait", "client"), last], ready_timeout_s=READY_S)
+        pids |= supervisor.pids
+    assert lived == [{"client": False, "last": True}]
+
+
 async def test_restart_replaces_the_process(supervisor: Supervisor, exits: list[Exit]) -> None:
     await supervisor.start([child("wait")], ready_timeout_s=READY_S)
     before = supervisor.pids["actor"]
