@@ -9,8 +9,8 @@ from pathlib import Path
 
 import msgspec
 
-from crew.contracts.proof import Progress, Report, check
 from crew.contracts.proof.basis import basis
+from crew.contracts.proof.report import Progress, Report
 from crew.contracts.site import Rules
 from crew.errors import UsageError
 from crew.home import Home, replace_file
@@ -24,10 +24,10 @@ def prove(rules: Rules, home: Home, progress: Progress | None = None) -> dict[st
     """The verdict on every contract of the rules. What was proved before with the same rules is read, not made."""
     path = home.proofs / f"{_key(rules)}.json"
     reports = _read(path)
-    missing = [name for name in rules.contracts if name not in reports]
-    for name in missing:
-        reports[name] = check(rules, name, progress=progress)
-    if missing:
+    if missing := [name for name in rules.contracts if name not in reports]:
+        from crew.contracts.proof.checker import check
+
+        reports |= {name: check(rules, name, progress=progress) for name in missing}
         _keep(path, {name: report for name, report in reports.items() if report.proved})
     return {name: reports[name] for name in rules.contracts}
 

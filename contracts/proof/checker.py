@@ -1,8 +1,7 @@
 """The check of a contract: explores every plan's model and turns what is broken into findings."""
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from functools import partial
-from typing import NamedTuple
 
 from msgspec.structs import replace
 
@@ -14,24 +13,12 @@ from crew.contracts.proof.graph import Graph
 from crew.contracts.proof.judge import Found, judge
 from crew.contracts.proof.model import Model
 from crew.contracts.proof.repair import repaired
-from crew.contracts.proof.report import Fallback, Report
+from crew.contracts.proof.report import Fallback, Progress, Report, Stage
 from crew.contracts.site import Rules
 
 LIMIT = 200_000
 """States of one contract. Beyond it a contract counts as not proved."""
 MAX_PLANS = 20_000
-
-
-class Stage(NamedTuple):
-    """How far a check has come."""
-
-    contract: str
-    plan: int
-    plans: int
-    states: int
-
-
-Progress = Callable[[Stage], None]
 
 
 def check_all(rules: Rules, *, limit: int = LIMIT, progress: Progress | None = None) -> dict[str, Report]:

@@ -1,6 +1,21 @@
 """What a check of a contract found: plain data, for the command line, for editors and for the state folder."""
 
+from collections.abc import Callable
+from typing import NamedTuple
+
 import msgspec
+
+
+class Stage(NamedTuple):
+    """How far a check has come."""
+
+    contract: str
+    plan: int
+    plans: int
+    states: int
+
+
+Progress = Callable[[Stage], None]
 
 
 class Finding(msgspec.Struct, frozen=True, kw_only=True):

@@ -9,7 +9,8 @@ import msgspec
 from crew.cli.output import coloured, say, say_json
 from crew.cli.progress import proof_progress
 from crew.contracts.odd.look import oddities
-from crew.contracts.proof import LIMIT, Fallback, Finding, Report, check
+from crew.contracts.proof.checker import LIMIT, check
+from crew.contracts.proof.report import Fallback, Finding, Report
 from crew.contracts.site import Rules
 from crew.errors import CrewError, UsageError
 from crew.library import crew_names, load_rules, read_text

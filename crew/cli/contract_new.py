@@ -10,7 +10,8 @@ from crew.contracts.contract import Contract
 from crew.contracts.files.contract_file import load_contract
 from crew.contracts.files.source import SourceErrors
 from crew.contracts.odd.look import oddities
-from crew.contracts.proof import Report, check
+from crew.contracts.proof.checker import check
+from crew.contracts.proof.report import Report
 from crew.contracts.scaffold.draft import Draft
 from crew.contracts.scaffold.wish import WishError, read_wish
 from crew.contracts.site import Rules

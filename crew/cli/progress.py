@@ -5,7 +5,7 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
-from crew.contracts.proof import Stage
+from crew.contracts.proof.report import Stage
 
 BAR = 24
 EVERY_S = 0.1

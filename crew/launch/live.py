@@ -13,7 +13,7 @@ from crew.actors.planner.choice import check_choice
 from crew.authority import establish
 from crew.bus.port import Bus
 from crew.bus.zenoh import ZenohBus
-from crew.contracts.proof import Progress
+from crew.contracts.proof.report import Progress
 from crew.contracts.site import Rules
 from crew.errors import UsageError
 from crew.history.contract_text import keep_contracts

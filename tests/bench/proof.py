@@ -3,7 +3,7 @@
 import time
 from collections.abc import Iterator
 
-from crew.contracts.proof import check
+from crew.contracts.proof.checker import check
 from crew.library import crew_names, load_rules
 
 

@@ -6,6 +6,7 @@ import pytest
 from msgspec.structs import replace
 
 from crew import proofs
+from crew.contracts.proof import checker
 from crew.contracts.proof.basis import basis
 from crew.contracts.site import Rules
 from crew.errors import UsageError
@@ -27,7 +28,7 @@ def abort() -> Rules:
 
 def test_what_was_proved_is_not_proved_again(home: Home, abort: Rules, monkeypatch: pytest.MonkeyPatch) -> None:
     first = proofs.prove(abort, home)
-    monkeypatch.setattr(proofs, "check", lambda *_, **__: pytest.fail("proved again"))
+    monkeypatch.setattr(checker, "check", lambda *_, **__: pytest.fail("proved again"))
     assert proofs.prove(abort, home) == first
 
 

@@ -12,7 +12,7 @@ from collections.abc import Callable, Mapping
 from importlib.metadata import version
 from random import Random
 
-from crew.contracts.proof import check
+from crew.contracts.proof.checker import check
 from crew.contracts.site import Rules
 from tests.unit.contracts.proof.lab import STOP, chain, kind, rules, skill
 

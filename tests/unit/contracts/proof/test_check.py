@@ -12,7 +12,8 @@ from crew.contracts.gate.approval import approved
 from crew.contracts.gate.authorize import Gate
 from crew.contracts.mission_state import Approval, MissionState, Purpose
 from crew.contracts.plan import Call
-from crew.contracts.proof import Finding, Report, Stage, check, check_all
+from crew.contracts.proof.checker import check, check_all
+from crew.contracts.proof.report import Finding, Report, Stage
 from crew.contracts.proof.world import NOW_NS
 from crew.contracts.site import Rules
 from crew.contracts.snapshot import Snapshot

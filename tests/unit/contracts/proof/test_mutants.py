@@ -5,7 +5,7 @@ import re
 import pytest
 from msgspec.structs import replace
 
-from crew.contracts.proof import check
+from crew.contracts.proof.checker import check
 from crew.contracts.site import Rules
 from crew.library import load_rules
 from tests.unit.contracts.build import air_ground, with_approval

@@ -4,7 +4,7 @@ import re
 
 import pytest
 
-from crew.contracts.proof import check
+from crew.contracts.proof.checker import check
 from tests.unit.contracts.proof.scale import ROWS
 from tests.unit.contracts.proof.test_shipped import SHIPPED, report_of
 from tests.unit.project.tree import ROOT

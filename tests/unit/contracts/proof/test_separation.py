@@ -5,7 +5,7 @@ from collections.abc import Mapping
 import pytest
 from msgspec.structs import replace
 
-from crew.contracts.proof import check
+from crew.contracts.proof.checker import check
 from crew.contracts.site import Rules
 from crew.contracts.skill import FluentLiteral, Kind
 from tests.unit.contracts.build import air_ground

@@ -4,7 +4,8 @@ from functools import cache
 
 import pytest
 
-from crew.contracts.proof import Report, check
+from crew.contracts.proof.checker import check
+from crew.contracts.proof.report import Report
 from crew.library import crew_names, load_rules
 
 SHIPPED = [(crew, name) for crew in crew_names() for name in load_rules(crew).contracts]

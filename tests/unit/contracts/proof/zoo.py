@@ -8,7 +8,8 @@ from msgspec.structs import replace
 
 from crew.contracts.files.contract_file import load_contract
 from crew.contracts.files.source import SourceErrors
-from crew.contracts.proof import Finding, check
+from crew.contracts.proof.checker import check
+from crew.contracts.proof.report import Finding
 from crew.contracts.site import Rules
 from crew.library import load_rules
 

@@ -5,7 +5,7 @@ from msgspec.structs import replace
 
 from crew.contracts.files.contract_file import load_contract
 from crew.contracts.odd.look import oddities
-from crew.contracts.proof import check
+from crew.contracts.proof.checker import check
 from crew.contracts.scaffold.draft import Draft
 from crew.contracts.scaffold.wish import WishError, read_wish
 from crew.library import load_rules

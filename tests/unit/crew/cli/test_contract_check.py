@@ -7,7 +7,8 @@ import pytest
 
 from crew.cli.contract_check import run_check
 from crew.cli.progress import line
-from crew.contracts.proof import LIMIT, Stage
+from crew.contracts.proof.checker import LIMIT
+from crew.contracts.proof.report import Stage
 from crew.errors import UsageError
 from crew.library import CONTRACTS
 from tests.unit.contracts.proof.zoo import ZOO
