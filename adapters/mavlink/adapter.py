@@ -1,10 +1,10 @@
 """The adapter that a robot actor owns: one vehicle, one skill at a time, a stop that needs no event loop."""
 
-import asyncio
 from collections.abc import AsyncIterator, Callable, Mapping
 from typing import cast
 
-from crew.adapter import AdapterConfig, Check, Course, Neighbour, Place, Reading, StopLatch
+from crew.adapter import AdapterConfig, Check, Course, Neighbour, Permit, Place, Reading, StopLatch
+from crew.adapters.aftermath import Aftermath
 from crew.adapters.mavlink.braking import brake
 from crew.adapters.mavlink.checklist import walk
 from crew.adapters.mavlink.flavours.flavour import FlightFlavour
@@ -15,10 +15,11 @@ from crew.adapters.mavlink.quadcopter import QuadcopterSkills
 from crew.adapters.mavlink.rover import RoverSkills
 from crew.adapters.mavlink.run import HANDS_OFF, Run
 from crew.adapters.mavlink.skills import Skills
-from crew.adapters.mavlink.vehicle import POLL_S, Vehicle
-from crew.adapters.mavlink.writer import Permit
+from crew.adapters.mavlink.vehicle import Vehicle
 from crew.adapters.options import read_options
+from crew.adapters.settling import Settling
 from crew.adapters.stopping import StopRepeater
+from crew.adapters.tenure import Tenure
 from crew.clock import Clock
 from crew.contracts.skill import SkillArgs
 from crew.contracts.snapshot import ValueReading
@@ -39,16 +40,13 @@ class MavlinkAdapter:
         self._options = read_options(config.robot, dict(config.options), OPTIONS[config.kind])
         self._latch = StopLatch()
         self._counts = LinkCounts()
-        self._callbacks: list[Callable[[], None]] = []
+        self._settling = Settling(clock)
         self._others = Others(config.separation_m)
         self._vehicle = self._new_vehicle()
         self._skills: Skills | None = None
-        self._run: Run | None = None
-        self._safe: Permit | None = None
-        self._braking: asyncio.Task[None] | None = None
-        self._brake_fault = ""
+        self._tenure: Tenure[Run] = Tenure(config.robot, self._latch, clock)
+        self._aftermath = Aftermath(lambda: self._brake(self._run_for(Permit(safe=True))), self._still_since, clock)
         self._taken_over = ""
-        self._doubted_ns = 0
         self._halted_ns = 0
         self._repeater = StopRepeater(self._send_stop, lambda: self._still_since(self._halted_ns), self._latch.lock)
 
@@ -62,12 +60,13 @@ class MavlinkAdapter:
             await self._vehicle.close()
             raise
         self._skills = self._new_skills()
-        self._brake_fault = self._taken_over = ""
+        self._aftermath.forget()
+        self._taken_over = ""
 
     async def close(self) -> None:
         """End a running skill, stopping the vehicle, and let the link go."""
-        if self._run is not None:
-            self._end(self._run.permit, AdapterError(f"{self._config.robot}: adapter closed", code="cancelled"))
+        if self._tenure.run is not None:
+            self._tenure.cancel("adapter closed")
             self._send_stop()
         await self._disconnect()
 
@@ -75,7 +74,7 @@ class MavlinkAdapter:
         """Carry out a skill to its observed end; raises Latched or AdapterError, and leaves no motion behind."""
         run = self._begin(skill)
         try:
-            await self._settle_brake()
+            await self._aftermath.settle()
             self._require_fit(skill, run)
             await self._ready().perform(args, places, run)
         except AdapterError as error:
@@ -88,14 +87,13 @@ class MavlinkAdapter:
             self._abandon(run, AdapterError(f"{self._config.robot}: {skill} cancelled", code="cancelled"))
             raise
         finally:
-            self._run = None
+            self._tenure.end()
 
     async def cancel(self) -> None:
         """End the running skill and brake; returns when nearly still. Raises AdapterError `still_moving`."""
-        if self._run is not None:
-            self._end(self._run.permit, AdapterError(f"{self._config.robot}: skill cancelled", code="cancelled"))
+        self._tenure.cancel("skill cancelled")
         await self._brake(self._run_for(Permit(safe=True)))
-        await self._ended()
+        await self._tenure.ended()
 
     async def safe(self, behaviour: str) -> None:
         """`hover` and `stop` brake, `land` lands, `hover_then_land` brakes, waits and lands. Allowed while latched.
@@ -108,7 +106,7 @@ class MavlinkAdapter:
             )
         if self._pilot() and not self._latch.latched:
             return
-        run = self._run_for(self._begin_safe())
+        run = self._run_for(self._tenure.begin_safe())
         try:
             if behaviour != "land":
                 await self._brake(run)
@@ -117,9 +115,9 @@ class MavlinkAdapter:
             self._repeater.finish()
             if behaviour in ("land", "hover_then_land"):
                 await self._ready().come_down(run)
-            await self._ended()
+            await self._tenure.ended()
         finally:
-            self._end_safe(run.permit)
+            self._tenure.end_safe(run.permit)
 
     async def checklist(self) -> AsyncIterator[Check]:
         """What a person would check before a real vehicle may be commanded. Connect first."""
@@ -134,14 +132,12 @@ class MavlinkAdapter:
         """
         with self._latch.lock:
             if self._latch.latched:
-                if self._safe is None and not self._repeater.active and not self._still_since(self._halted_ns):
+                if self._tenure.safe is None and not self._repeater.active and not self._still_since(self._halted_ns):
                     self._send_stop()
                 return
             self._latch.set()
             self._halted_ns = self._clock.now_ns()
-            stopped = Latched(f"{self._config.robot}: stopped")
-            for permit in (self._run.permit if self._run else None, self._safe):
-                self._end(permit, stopped)
+            self._tenure.revoke(Latched(f"{self._config.robot}: stopped"))
             self._send_stop()
             self._repeater.start()
 
@@ -168,7 +164,7 @@ class MavlinkAdapter:
         """Empty if the robot can take a skill, otherwise the reason in a few words."""
         if self._skills is None:
             return "not connected"
-        return self._vehicle.link_fault() or self._pilot() or self._vehicle.fault() or self._motion_doubt()
+        return self._vehicle.link_fault() or self._pilot() or self._vehicle.fault() or self._aftermath.doubt()
 
     def meet(self, neighbour: Neighbour) -> None:
         """Keep clear of it from now on."""
@@ -180,14 +176,12 @@ class MavlinkAdapter:
 
     def on_traffic(self, callback: Callable[[], None]) -> None:
         """Call back, on the loop, after received traffic was handled and the tasks that it woke had their turns."""
-        self._callbacks.append(callback)
+        self._settling.on_settled(callback)
 
     # Connecting.
 
     def _new_vehicle(self) -> Vehicle:
-        vehicle = Vehicle(self._config, self._options, self._clock, self._latch, self._counts)
-        vehicle.link.on_settled(self._settled)
-        return vehicle
+        return Vehicle(self._config, self._options, self._clock, self._latch, self._counts, self._settling)
 
     def _new_skills(self) -> Skills:
         flavour, options = self._vehicle.flavour, self._options
@@ -198,15 +192,8 @@ class MavlinkAdapter:
     async def _disconnect(self) -> None:
         self._skills = None
         self._repeater.finish()
-        if self._braking is not None:
-            self._braking.cancel()
-            await asyncio.gather(self._braking, return_exceptions=True)
-            self._braking = None
+        await self._aftermath.close()
         await self._vehicle.close()
-
-    def _settled(self) -> None:
-        for callback in self._callbacks:
-            callback()
 
     def _ready(self) -> Skills:
         if self._skills is None:
@@ -219,38 +206,8 @@ class MavlinkAdapter:
         return Run(self._vehicle, permit, self._options.stall_s, fenced=fenced)
 
     def _begin(self, skill: str) -> Run:
-        with self._latch.lock:
-            if self._latch.latched:
-                raise Latched(f"{self._config.robot}: {skill} not started: the stop is latched; reset the robot first")
-            if self._run is not None or self._safe is not None:
-                raise AdapterError(f"{self._config.robot}: {skill} not started: busy", code="robot_busy")
-            fenced = self._skills is not None and skill not in self._skills.unconditional
-            self._run = self._run_for(Permit(), fenced=fenced)
-            return self._run
-
-    def _begin_safe(self) -> Permit:
-        """A permit that ends whatever ran before."""
-        with self._latch.lock:
-            superseded = AdapterError(f"{self._config.robot}: a safe behaviour took over", code="cancelled")
-            for permit in (self._run.permit if self._run else None, self._safe):
-                self._end(permit, superseded)
-            self._safe = Permit(safe=True)
-            return self._safe
-
-    def _end_safe(self, permit: Permit) -> None:
-        with self._latch.lock:
-            if self._safe is permit:
-                self._safe = None
-
-    def _end(self, permit: Permit | None, error: AdapterError) -> None:
-        with self._latch.lock:
-            if permit is not None:
-                permit.revoke(error)
-
-    async def _ended(self) -> None:
-        """Wait for a run whose permit was revoked to notice it: one poll, or the answer to its last command."""
-        while self._run is not None and self._run.permit.revoked:
-            await self._clock.sleep(POLL_S)
+        fenced = self._skills is not None and skill not in self._skills.unconditional
+        return self._tenure.begin(skill, self._run_for(Permit(), fenced=fenced))
 
     def _require_fit(self, skill: str, run: Run) -> None:
         run.check()
@@ -263,7 +220,7 @@ class MavlinkAdapter:
 
     def progress(self) -> Course | None:
         """How far the running skill has come on its way."""
-        run = self._run
+        run = self._tenure.run
         return None if run is None else run.way.course()
 
     # Stopping.
@@ -275,11 +232,10 @@ class MavlinkAdapter:
         """
         if run.permit.revoked:
             return
-        self._end(run.permit, error)
-        if not run.moved:
-            return
-        self._send_stop()
-        self._braking = asyncio.get_running_loop().create_task(self._brake_after_failure())
+        run.permit.revoke(error)
+        if run.moved:
+            self._send_stop()
+            self._aftermath.begin()
 
     def _leave_alone(self, error: AdapterError) -> None:
         """A pilot, a failsafe or another station has the vehicle: send nothing until it is down."""
@@ -291,29 +247,9 @@ class MavlinkAdapter:
             self._taken_over = ""
         return self._taken_over
 
-    async def _brake_after_failure(self) -> None:
-        try:
-            await self._brake(self._run_for(Permit(safe=True)))
-            self._brake_fault = ""
-        except AdapterError as error:
-            self._brake_fault = f"did not confirm its stop: {error}"
-            self._doubted_ns = self._clock.now_ns()
-
-    async def _settle_brake(self) -> None:
-        """Wait for the braking that an earlier failure left."""
-        if self._braking is not None:
-            await asyncio.wait({self._braking})
-            self._braking = None
-
     async def _brake(self, run: Run) -> None:
         if not self._ready().grounded:
             await brake(run, self._ready().still_mps)
-
-    def _motion_doubt(self) -> str:
-        """Why it may still be moving after a failure; empty once it was seen standing still since."""
-        if self._brake_fault and self._still_since(self._doubted_ns):
-            self._brake_fault = ""
-        return self._brake_fault
 
     def _send_stop(self) -> None:
         self._vehicle.send_stop()

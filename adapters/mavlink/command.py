@@ -7,8 +7,9 @@ from typing import Any
 import msgspec
 from pymavlink.dialects.v20 import common as mavlink
 
+from crew.adapter import Permit
 from crew.adapters.mavlink.statustext import StatusLog
-from crew.adapters.mavlink.writer import GROUND_SYSTEM, Permit, Writer
+from crew.adapters.mavlink.writer import GROUND_SYSTEM, Writer
 from crew.clock import Clock, seconds_ns, within
 from crew.errors import AdapterError
 

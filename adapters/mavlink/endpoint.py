@@ -2,9 +2,8 @@
 
 import msgspec
 
+from crew.adapters.datagram import Address
 from crew.errors import AdapterError
-
-Address = tuple[str, int]
 
 
 class Endpoint(msgspec.Struct, frozen=True):

@@ -5,24 +5,20 @@ import errno
 import socket
 import struct
 from collections.abc import Callable
-from contextlib import AbstractContextManager
 from typing import Any
 
 import msgspec
 from pymavlink.dialects.v20 import common as mavlink
 
 from crew.adapter import StopLatch
-from crew.adapters.mavlink.endpoint import Address, Endpoint
+from crew.adapters.datagram import Address, waiting
+from crew.adapters.mavlink.endpoint import Endpoint
 from crew.adapters.mavlink.signing import SigningState, VerifyingParser
 from crew.adapters.mavlink.writer import Writer
-from crew.clock import Clock
+from crew.adapters.settling import Settling
 from crew.errors import AdapterError
 
 BUFFER_BYTES = 1 << 20
-MAX_BATCH = 256
-"""Datagrams read before the loop gets its turn again."""
-SETTLING_TURNS = 6
-"""Turns of the loop that a task woken by a message is given before the traffic counts as handled."""
 
 
 class LinkCounts(msgspec.Struct):
@@ -46,7 +42,7 @@ class UdpLink:
     def __init__(
         self,
         endpoint: Endpoint,
-        clock: Clock,
+        settling: Settling,
         latch: StopLatch,
         wanted: Callable[[Any], bool],
         handle: Callable[[Any], None],
@@ -54,7 +50,7 @@ class UdpLink:
         signing: SigningState | None = None,
     ) -> None:
         self._endpoint = endpoint
-        self._clock = clock
+        self._settling = settling
         self._wanted = wanted
         self._handle = handle
         self._socket: socket.socket | None = None
@@ -64,9 +60,6 @@ class UdpLink:
         self._destination: Address | None = None if endpoint.listen else endpoint.address
         self._system: int | None = None
         self._vehicle: Address | None = None
-        self._hold: AbstractContextManager[None] | None = None
-        self._turns = 0
-        self._on_settled: list[Callable[[], None]] = []
         self.counts = counts
         self._signing = signing
         self.writer = Writer(latch, self._transmit)
@@ -77,10 +70,6 @@ class UdpLink:
     def reachable(self) -> bool:
         """Whether there is an address to send to."""
         return self._socket is not None and self._destination is not None
-
-    def on_settled(self, callback: Callable[[], None]) -> None:
-        """Call back once a batch was handled and the tasks that it woke have had their turns."""
-        self._on_settled.append(callback)
 
     def unsigned_text(self) -> str:
         """How many frames were refused for their signature, in words; empty on a link that is not signed."""
@@ -106,7 +95,7 @@ class UdpLink:
             self._loop.remove_reader(self._socket.fileno())
             sock, self._socket = self._socket, None
             sock.close()
-        self._release()
+        self._settling.close()
 
     def _transmit(self, data: bytes) -> None:
         sock = self._socket
@@ -121,18 +110,13 @@ class UdpLink:
             self.counts.sent += 1
 
     def _readable(self) -> None:
-        for _ in range(MAX_BATCH):
-            if self._socket is None:
-                return
-            try:
-                data, address = self._socket.recvfrom(65536)
-            except BlockingIOError:
-                break
-            except OSError:
-                continue
+        if self._socket is None:
+            return
+        for data, address in waiting(self._socket):
             self.counts.received += 1
             self._take(data, address)
-        self._settle()
+        if self._socket is not None:
+            self._settling.note()
 
     def _take(self, data: bytes, address: Address) -> None:
         if self._vehicle not in (None, address):
@@ -155,29 +139,6 @@ class UdpLink:
             self._vehicle, self._system = address, message.get_srcSystem()
             self._destination = address
         return address == self._vehicle and message.get_srcSystem() == self._system
-
-    def _settle(self) -> None:
-        self._turns = SETTLING_TURNS
-        if self._hold is None and self._loop is not None:
-            self._hold = self._clock.busy()
-            self._hold.__enter__()
-            self._loop.call_soon(self._turn)
-
-    def _turn(self) -> None:
-        if self._hold is None or self._loop is None:
-            return
-        self._turns -= 1
-        if self._turns > 0:
-            self._loop.call_soon(self._turn)
-            return
-        self._release()
-        for callback in self._on_settled:
-            callback()
-
-    def _release(self) -> None:
-        if self._hold is not None:
-            hold, self._hold = self._hold, None
-            hold.__exit__(None, None, None)
 
 
 def parse_datagram(parser: Any, data: bytes) -> list[Any] | None:

@@ -5,12 +5,12 @@ from collections.abc import Callable
 
 import msgspec
 
+from crew.adapter import Permit
 from crew.adapters.mavlink.command import Command
 from crew.adapters.mavlink.fence import check_breach
 from crew.adapters.mavlink.flavours.flavour import Modes
 from crew.adapters.mavlink.vehicle import POLL_S, Vehicle, seconds_since
 from crew.adapters.mavlink.way import Way
-from crew.adapters.mavlink.writer import Permit
 from crew.clock import seconds_ns
 from crew.errors import AdapterError
 

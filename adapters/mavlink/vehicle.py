@@ -18,6 +18,7 @@ from crew.adapters.mavlink.parameter import Parameters
 from crew.adapters.mavlink.preflight import HOME_MAX_AGE_S, fitness_fault, link_fault
 from crew.adapters.mavlink.signing import SigningState, read_key
 from crew.adapters.mavlink.telemetry import Home, Telemetry
+from crew.adapters.settling import Settling
 from crew.clock import SECOND_NS, Clock, seconds_ns
 from crew.errors import AdapterError
 
@@ -35,7 +36,13 @@ class Vehicle:
     """Everything that skills need of a vehicle: `flavour`, `commander` and `parameters` exist once it was found."""
 
     def __init__(
-        self, config: AdapterConfig, options: VehicleOptions, clock: Clock, latch: StopLatch, counts: LinkCounts
+        self,
+        config: AdapterConfig,
+        options: VehicleOptions,
+        clock: Clock,
+        latch: StopLatch,
+        counts: LinkCounts,
+        settling: Settling,
     ) -> None:
         self.config = config
         self.clock = clock
@@ -43,7 +50,9 @@ class Vehicle:
         self.telemetry = Telemetry(clock, self.frame)
         key = read_key(config.robot, options.signing_key) if options.signing_key else None
         signing = None if key is None else SigningState(key)
-        self.link = UdpLink(parse_endpoint(config.connection), clock, latch, self._wanted, self._take, counts, signing)
+        self.link = UdpLink(
+            parse_endpoint(config.connection), settling, latch, self._wanted, self._take, counts, signing
+        )
         self._options = options
         self._found: Any = None
         self._flavour: Flavour | None = None

@@ -8,8 +8,7 @@ from typing import Any
 
 from pymavlink.dialects.v20 import common as mavlink
 
-from crew.adapter import Permit as Permit
-from crew.adapter import StopLatch
+from crew.adapter import Permit, StopLatch
 from crew.errors import AdapterError, Latched
 
 GROUND_SYSTEM = 255

@@ -5,12 +5,10 @@ import socket
 
 import msgspec
 
+from crew.adapters.datagram import Address, waiting
 from crew.adapters.settling import Settling
 from crew.adapters.unitree.transport import Body, Counts, Take
 from crew.errors import AdapterError
-
-Address = tuple[str, int]
-MAX_BATCH = 256
 
 
 def parse_address(text: str) -> Address:
@@ -72,18 +70,13 @@ class Datagrams:
             self._counts.sent += 1
 
     def _readable(self) -> None:
-        for _ in range(MAX_BATCH):
-            if self._socket is None:
-                return
-            try:
-                data, address = self._socket.recvfrom(65536)
-            except BlockingIOError:
-                break
-            except OSError:
-                continue
+        if self._socket is None:
+            return
+        for data, address in waiting(self._socket):
             self._counts.received += 1
             self._hand_on(data, address)
-        self._settling.note()
+        if self._socket is not None:
+            self._settling.note()
 
     def _hand_on(self, data: bytes, address: Address) -> None:
         message = self._decode(data)

@@ -1,6 +1,7 @@
 """The command line. Each command imports what it needs when it runs, so that `--help` stays quick."""
 
 import sys
+from typing import Annotated
 
 import typer
 
@@ -8,7 +9,6 @@ from crew.cli.group import certificate, contract, crew_life, operating, past_run
 
 app = typer.Typer(
     name="crew",
-    help="Command a crew of robots in plain language. No language model ever moves one.",
     no_args_is_help=True,
     add_completion=False,
     pretty_exceptions_enable=False,
@@ -20,6 +20,23 @@ for group in (crew_life, operating, past_run, study):
 app.add_typer(contract.app, name="contracts")
 app.add_typer(planner.app, name="planner")
 app.add_typer(certificate.app, name="certs")
+
+
+def _print_version(wanted: bool) -> None:
+    if wanted:
+        from importlib.metadata import version
+
+        print(f"crew {version('robot-crew')}")
+        raise typer.Exit
+
+
+@app.callback()
+def root(
+    version: Annotated[
+        bool, typer.Option("--version", callback=_print_version, is_eager=True, help="Print the version and exit.")
+    ] = False,
+) -> None:
+    """Command a crew of robots in plain language. No language model ever moves one."""
 
 
 def main() -> None:

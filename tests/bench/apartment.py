@@ -6,7 +6,7 @@ from statistics import median
 from crew.adapters.unitree.kinematics import READY, Arm, Joints, between, hand_pose
 from crew.sim.apartment.world import Apartment
 from crew.sim.config import WorldConfig
-from tests.integration.adapters.lockstep import free_port
+from tests.integration.paced import free_port
 
 FORWARD = {"x": 0.4, "y": 0.0, "z": 0.3}
 STEPS = 200

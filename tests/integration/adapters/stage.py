@@ -7,11 +7,12 @@ from typing import Any, Protocol, TypeVar
 
 from crew.adapter import AdapterConfig
 from crew.adapters.mavlink.adapter import MavlinkAdapter
-from crew.clock import Clock, SimClock, WallClock
+from crew.clock import Clock, WallClock
 from crew.sim.config import WorldConfig
 from crew.sim.world import World
-from tests.integration.adapters.lockstep import AREA, SLICE_NS, discs, free_port
+from tests.integration.adapters.lockstep import AREA, discs
 from tests.integration.adapters.relay import Relay
+from tests.integration.paced import SLICE_NS, PacedStage, free_port
 
 T = TypeVar("T")
 
@@ -50,12 +51,12 @@ def _config(kind: str, port: int, origin: tuple[float, float, float], obstacles:
     )
 
 
-class SimulatedStage:
+class SimulatedStage(PacedStage):
     """A vehicle of the simulation in lockstep: time moves once everything sent was passed on and handled."""
 
     def __init__(self, kind: str, autopilot: str, signing_keys: dict[str, bytes] | None = None, **options: Any) -> None:
+        super().__init__()
         self._name = VEHICLES[kind]
-        self.clock = SimClock()
         self.relay = Relay(lambda: self.clock.now_ns() / 1e9)
         links = {name: f"udp:127.0.0.1:{free_port()}" for name in VEHICLES.values()}
         links[self._name] = f"udp:127.0.0.1:{self.relay.port}"
@@ -68,37 +69,14 @@ class SimulatedStage:
         self.adapter = MavlinkAdapter(_config(kind, port, place, discs(self.world), options), self.clock)
         self.relay.adapter = ("127.0.0.1", port)
 
-    async def run(self, work: Awaitable[T], limit_s: float = 120.0) -> T:
-        task = asyncio.ensure_future(work)
-        try:
-            await _turns()
-            await self.until(task.done, limit_s)
-        finally:
-            task.cancel()
-            await asyncio.gather(task, return_exceptions=True)
-        return task.result()
-
-    async def advance(self, seconds: float) -> None:
-        end_ns = self.clock.now_ns() + round(seconds * 1e9)
-        while self.clock.now_ns() < end_ns:
-            await self._step()
-
-    async def until(self, done: Callable[[], bool], limit_s: float = 60.0) -> None:
-        end_ns = self.clock.now_ns() + round(limit_s * 1e9)
-        while not done():
-            assert self.clock.now_ns() < end_ns, "simulated time ran out"
-            await self._step()
-
-    async def _step(self) -> None:
+    def simulate(self) -> int:
         self.relay.pump()
         self.world.advance(self.world.time_ns + SLICE_NS)
         self.relay.pump()
-        for _ in range(10_000):
-            if self.adapter.link_counts()[1] >= self.relay.forwarded and not self.clock.is_busy:
-                break
-            await asyncio.sleep(0)
-        self.clock.advance(self.world.time_ns)
-        await _turns()
+        return self.world.time_ns
+
+    def heard(self) -> bool:
+        return self.adapter.link_counts()[1] >= self.relay.forwarded
 
     async def close(self) -> None:
         await self.adapter.close()
@@ -140,8 +118,3 @@ class RealStage:
         self._pump.cancel()
         await asyncio.gather(self._pump, return_exceptions=True)
         self.relay.close()
-
-
-async def _turns() -> None:
-    for _ in range(8):
-        await asyncio.sleep(0)

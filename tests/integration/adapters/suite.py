@@ -12,8 +12,8 @@ from typing import Any, ClassVar
 import pytest
 from pymavlink.dialects.v20 import common as mavlink
 
+from crew.adapter import Permit
 from crew.adapters.mavlink.command import Command
-from crew.adapters.mavlink.writer import Permit
 from crew.contracts.kinds.quadcopter import FlyTo, Land, Takeoff
 from crew.contracts.kinds.rover import NavigateTo, Stop
 from crew.contracts.snapshot import Point

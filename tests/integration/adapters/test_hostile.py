@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 from pymavlink.dialects.v20 import common as mavlink
 
-from crew.adapters.mavlink.writer import Permit
+from crew.adapter import Permit
 from crew.contracts.kinds.quadcopter import FlyTo, Land, SearchTarget, Takeoff
 from crew.errors import AdapterError
 from tests.integration.adapters.lockstep import lockstep

@@ -13,9 +13,11 @@ from crew.adapter import AdapterConfig, StopLatch
 from crew.adapters.mavlink.adapter import MavlinkAdapter
 from crew.adapters.mavlink.endpoint import parse_endpoint
 from crew.adapters.mavlink.link import LinkCounts, UdpLink
+from crew.adapters.settling import Settling
 from crew.clock import SimClock
 from crew.errors import AdapterError
-from tests.integration.adapters.lockstep import AREA, free_port
+from tests.integration.adapters.lockstep import AREA
+from tests.integration.paced import free_port
 from tests.unit.adapters.fake import finish, heartbeat
 
 
@@ -64,15 +66,16 @@ async def test_only_the_wanted_system_at_its_first_address_is_heard() -> None:
     port, clock, counts = free_port(), SimClock(), LinkCounts()
     heard: list[Any] = []
     settled: list[int] = []
+    settling = Settling(clock)
     link = UdpLink(
         parse_endpoint(f"udpin:127.0.0.1:{port}"),
-        clock,
+        settling,
         StopLatch(),
         lambda m: m.get_srcSystem() == 7,
         heard.append,
         counts,
     )
-    link.on_settled(lambda: settled.append(len(heard)))
+    settling.on_settled(lambda: settled.append(len(heard)))
     link.open()
     with peers(port, 3, 7, 7) as (other, vehicle, impostor):
         other.say(heartbeat())
@@ -96,7 +99,7 @@ async def test_only_the_wanted_system_at_its_first_address_is_heard() -> None:
 async def test_many_strangers_are_counted_and_nothing_else() -> None:
     port, clock, counts = free_port(), SimClock(), LinkCounts()
     endpoint = parse_endpoint(f"udpin:127.0.0.1:{port}")
-    link = UdpLink(endpoint, clock, StopLatch(), lambda m: False, lambda m: None, counts)
+    link = UdpLink(endpoint, Settling(clock), StopLatch(), lambda m: False, lambda m: None, counts)
     link.open()
     with peers(port, *range(1, 21)) as strangers:
         for stranger in strangers:

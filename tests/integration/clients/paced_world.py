@@ -7,7 +7,7 @@ from typing import Any, Self
 
 from crew.sim.config import WorldConfig
 from crew.sim.world import World
-from tests.integration.adapters.lockstep import free_port
+from tests.integration.paced import free_port
 
 SLICE_NS = 20_000_000
 

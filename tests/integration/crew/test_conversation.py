@@ -1,7 +1,7 @@
 """One crew and all that people and strangers may say to it: each request ends in a clear sentence, and work goes on."""
 
 import math
-from collections.abc import AsyncIterator, Iterator
+from collections.abc import AsyncIterator
 
 import msgspec
 import pytest
@@ -22,17 +22,6 @@ from tests.integration.crew.harness import (
 
 JSON, MSGPACK, TEXT = "application/json", "application/msgpack", "text/plain"
 ASKED = "send the rover to (-3, -3) twice"
-
-
-@pytest.fixture(scope="module")
-def desk(tmp_path_factory: pytest.TempPathFactory) -> Desk:
-    return Desk(tmp_path_factory.mktemp("conversation"))
-
-
-@pytest.fixture(scope="module")
-def up(desk: Desk) -> Iterator[Up]:
-    with desk.up() as up:
-        yield up
 
 
 @pytest.fixture

@@ -22,11 +22,6 @@ from tests.integration.crew.harness import (
 )
 
 
-@pytest.fixture(scope="module")
-def desk(tmp_path_factory: pytest.TempPathFactory) -> Desk:
-    return Desk(tmp_path_factory.mktemp("death"))
-
-
 @pytest.fixture
 def up(desk: Desk) -> Iterator[Up]:
     with desk.up() as up:

@@ -15,11 +15,6 @@ NEAR = "search x from -6 to -3 and y from -6 to -3 and send the rover to the vic
 
 
 @pytest.fixture(scope="module")
-def desk(tmp_path_factory: pytest.TempPathFactory) -> Desk:
-    return Desk(tmp_path_factory.mktemp("demo"))
-
-
-@pytest.fixture(scope="module")
 def completed(desk: Desk) -> Demo:
     return desk.demo()
 

@@ -8,11 +8,6 @@ import pytest
 from tests.integration.crew.harness import FAR_DRIVE, SHORT_DRIVE, Desk, Up, intents, wait_until, watching
 
 
-@pytest.fixture(scope="module")
-def desk(tmp_path_factory: pytest.TempPathFactory) -> Desk:
-    return Desk(tmp_path_factory.mktemp("disk"))
-
-
 def fill_the_disk(up: Up) -> None:
     """No file of the orchestrator may grow from now on; a write beyond that fails as on a full disk."""
     pid = up.children()["orchestrator"]

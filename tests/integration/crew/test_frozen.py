@@ -4,7 +4,7 @@ import asyncio
 import math
 import os
 import signal
-from collections.abc import AsyncIterator, Iterator, Sequence
+from collections.abc import AsyncIterator, Sequence
 from contextlib import asynccontextmanager
 
 import pytest
@@ -13,17 +13,6 @@ from crew.launch.ready import query_status
 from tests.integration.crew.harness import FAR_DRIVE, SEARCH, SHORT_DRIVE, Desk, Up, Watch, alive, intents, watching
 
 BOTH = ("iris", "tb3")
-
-
-@pytest.fixture(scope="module")
-def desk(tmp_path_factory: pytest.TempPathFactory) -> Desk:
-    return Desk(tmp_path_factory.mktemp("frozen"))
-
-
-@pytest.fixture(scope="module")
-def up(desk: Desk) -> Iterator[Up]:
-    with desk.up() as up:
-        yield up
 
 
 @pytest.fixture

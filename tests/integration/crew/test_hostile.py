@@ -100,11 +100,6 @@ class Rogue:
 
 
 @pytest.fixture(scope="module")
-def desk(tmp_path_factory: pytest.TempPathFactory) -> Desk:
-    return Desk(tmp_path_factory.mktemp("hostile"))
-
-
-@pytest.fixture(scope="module")
 def up(desk: Desk) -> Iterator[Up]:
     with desk.up() as up:
         up.kill("planner")

@@ -10,11 +10,6 @@ DELIVERED_M = 0.3
 CARRY = ["go2.navigate", "g1.pick_place", "go2.navigate"]
 
 
-@pytest.fixture(scope="module")
-def desk(tmp_path_factory: pytest.TempPathFactory) -> Desk:
-    return Desk(tmp_path_factory.mktemp("humanoid"))
-
-
 def test_a_person_beside_the_table_is_handed_the_cube(desk: Desk) -> None:
     demo = desk.demo("humanoid_quadruped", "--map", "near")
     assert (demo.code, demo.result["outcome"], demo.result["contract"]) == (0, "completed", "handover"), demo

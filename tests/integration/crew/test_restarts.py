@@ -17,11 +17,6 @@ from tests.integration.crew.threads import ThreadedCrew, crew_with_threads
 BOTH = ("iris", "tb3")
 
 
-@pytest.fixture(scope="module")
-def desk(tmp_path_factory: pytest.TempPathFactory) -> Desk:
-    return Desk(tmp_path_factory.mktemp("restarts"))
-
-
 @pytest.fixture
 async def stopped(desk: Desk) -> AsyncIterator[ThreadedCrew]:
     """A crew that was stopped, and whose robots have said so."""

@@ -1,7 +1,7 @@
 """One message stops and latches every robot; only the operator's signature releases them."""
 
 import math
-from collections.abc import AsyncIterator, Iterator
+from collections.abc import AsyncIterator
 from typing import Any
 
 import pytest
@@ -36,17 +36,6 @@ GARBAGE: dict[str, Body] = {
     "garbage": (b"\xff\x00\xc1" * 100, "application/msgpack;crew.stop/1"),
     "another version": (b"\x80", "application/msgpack;crew.stop/999"),
 }
-
-
-@pytest.fixture(scope="module")
-def desk(tmp_path_factory: pytest.TempPathFactory) -> Desk:
-    return Desk(tmp_path_factory.mktemp("stop"))
-
-
-@pytest.fixture(scope="module")
-def up(desk: Desk) -> Iterator[Up]:
-    with desk.up() as up:
-        yield up
 
 
 @pytest.fixture

@@ -56,11 +56,6 @@ class Copy:
 
 
 @pytest.fixture(scope="module")
-def desk(tmp_path_factory: pytest.TempPathFactory) -> Desk:
-    return Desk(tmp_path_factory.mktemp("tampering"))
-
-
-@pytest.fixture(scope="module")
 def runs(desk: Desk) -> tuple[Path, Path]:
     return desk.demo("--request", SHORT_DRIVE).run, desk.demo("--request", "land the drone").run
 

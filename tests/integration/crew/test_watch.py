@@ -13,23 +13,10 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-import pytest
-
 from tests.integration.crew.harness import CREW, Desk, Up
 
 COLUMNS, ROWS = 110, 40
 ROW = re.compile(r"\x1b\[(\d+);1H\x1b\[2K([^\r\n]*?)(?=\x1b\[\d+;1H|\x1b\[\?|\x1b\[2J|$)", re.DOTALL)
-
-
-@pytest.fixture(scope="module")
-def desk(tmp_path_factory: pytest.TempPathFactory) -> Desk:
-    return Desk(tmp_path_factory.mktemp("watch"))
-
-
-@pytest.fixture(scope="module")
-def up(desk: Desk) -> Iterator[Up]:
-    with desk.up() as up:
-        yield up
 
 
 class Terminal:

@@ -1,7 +1,7 @@
 """Strangers on every key that an actor listens to: dropped, counted, and nobody dies of it."""
 
 import math
-from collections.abc import AsyncIterator, Iterator, Mapping
+from collections.abc import AsyncIterator, Mapping
 from typing import Any
 
 import msgspec
@@ -26,7 +26,7 @@ from crew.messages import (
     RobotValue,
 )
 from crew.wire import Message, encoding_of
-from tests.integration.crew.harness import Desk, Up, Watch, intents, watching
+from tests.integration.crew.harness import Up, Watch, intents, watching
 
 LISTENED: Mapping[str, type[Message]] = {
     "tb3/state": RobotState,
@@ -46,17 +46,6 @@ LISTENED: Mapping[str, type[Message]] = {
     "sim/fault": RobotCard,
     "planner/ask": RobotCard,
 }
-
-
-@pytest.fixture(scope="module")
-def desk(tmp_path_factory: pytest.TempPathFactory) -> Desk:
-    return Desk(tmp_path_factory.mktemp("wire"))
-
-
-@pytest.fixture(scope="module")
-def up(desk: Desk) -> Iterator[Up]:
-    with desk.up() as up:
-        yield up
 
 
 @pytest.fixture

@@ -1,41 +1,36 @@
 """The unitree adapters against the simulated apartment in lockstep: time moves only when no datagram is on its way."""
 
-import asyncio
-import contextlib
 import math
-from collections.abc import AsyncIterator, Awaitable, Mapping
-from typing import Any, TypeVar
+from collections.abc import Mapping
+from contextlib import AbstractAsyncContextManager
+from typing import Any
 
 import msgspec
 
 from crew.adapter import AdapterConfig, Place
 from crew.adapters.unitree.adapter import UnitreeAdapter
-from crew.clock import SimClock
 from crew.contracts.kinds.humanoid import HUMANOID
 from crew.contracts.kinds.quadruped import QUADRUPED
 from crew.contracts.site import Crew
 from crew.library import load_rules
 from crew.sim.apartment.world import Apartment
 from crew.sim.config import WorldConfig
-from tests.integration.adapters.lockstep import free_port
+from tests.integration.paced import SLICE_NS, AdapterStage, connected, free_port
 
-T = TypeVar("T")
-
-SLICE_NS = 50_000_000
 KINDS = {"humanoid": HUMANOID, "quadruped": QUADRUPED}
 
 
-class Stage:
+class Stage(AdapterStage[UnitreeAdapter]):
     """One apartment, one clock, an adapter for each robot of the shipped crew."""
 
     def __init__(self, *, map_: str = "far", seed: int = 0, faults: tuple[str, ...] = (), noise: bool = True) -> None:
+        super().__init__()
         self.crew: Crew = load_rules("humanoid_quadruped").crew
         ports = {robot.name: free_port() for robot in self.crew.robots}
         links = {name: f"udp:127.0.0.1:{port}" for name, port in ports.items()}
         self.world = Apartment(
             WorldConfig(scene="apartment", map=map_, seed=seed, faults=faults, noise=noise, links=links)
         )
-        self.clock = SimClock()
         area = self.crew.area
         self.adapters = {
             robot.name: UnitreeAdapter(
@@ -53,7 +48,6 @@ class Stage:
             )
             for robot in self.crew.robots
         }
-        self.connected: list[str] = []
 
     @property
     def g1(self) -> UnitreeAdapter:
@@ -81,44 +75,14 @@ class Stage:
         place = self.crew.location(name)
         return {} if place is None else {"location": Place(place.x, place.y)}
 
-    async def run(self, work: Awaitable[T], limit_s: float = 200.0) -> T:
-        """Advance the world until `work` is done."""
-        task = asyncio.ensure_future(work)
-        end_ns = self.clock.now_ns() + round(limit_s * 1e9)
-        try:
-            await self._turns()
-            while not task.done():
-                assert self.clock.now_ns() < end_ns, "simulated time ran out"
-                await self.step()
-        finally:
-            task.cancel()
-            await asyncio.gather(task, return_exceptions=True)
-        return task.result()
-
-    async def advance(self, seconds: float) -> None:
-        end_ns = self.clock.now_ns() + round(seconds * 1e9)
-        while self.clock.now_ns() < end_ns:
-            await self.step()
-
-    async def step(self) -> None:
-        self.world.advance(self.world.time_ns + SLICE_NS)
-        await self._arrived()
-        self.clock.advance(self.world.time_ns)
-        await self._turns()
+    def simulate(self) -> int:
         self.world.poll()
+        self.world.advance(self.world.time_ns + SLICE_NS)
+        return self.world.time_ns
 
-    async def _arrived(self) -> None:
-        for _ in range(10_000):
-            sent = self.world.sent()
-            heard = all(self.adapters[name].link_counts()[1] >= sent[name] for name in self.connected)
-            if heard and not self.clock.is_busy:
-                return
-            await asyncio.sleep(0)
-        raise AssertionError(f"datagrams lost: {self.world.sent()}")
-
-    async def _turns(self) -> None:
-        for _ in range(8):
-            await asyncio.sleep(0)
+    def heard(self) -> bool:
+        sent = self.world.sent()
+        return all(self.adapters[name].link_counts()[1] >= sent[name] for name in self.connected)
 
     # The truth.
 
@@ -132,22 +96,11 @@ class Stage:
         """How far a thing truly is from a point, horizontally."""
         return math.dist(self.thing(name)[:2], (x, y))
 
-    async def close(self) -> None:
-        for adapter in self.adapters.values():
-            await adapter.close()
+    def end(self) -> None:
         self.world.close()
 
 
-@contextlib.asynccontextmanager
-async def stage(*robots: str, **how: Any) -> AsyncIterator[Stage]:
+def stage(*robots: str, **how: Any) -> AbstractAsyncContextManager[Stage]:
     """An apartment with the named robots' adapters connected; both if none is named."""
     found = Stage(**how)
-    names = robots or tuple(found.adapters)
-    try:
-        connecting = [asyncio.ensure_future(found.adapters[name].connect()) for name in names]
-        await asyncio.sleep(0)
-        found.connected.extend(names)
-        await found.run(asyncio.gather(*connecting))
-        yield found
-    finally:
-        await found.close()
+    return connected(found, robots or tuple(found.adapters))

@@ -10,7 +10,7 @@ from typing import Any
 
 import pytest
 
-from tests.integration.adapters.lockstep import free_port
+from tests.integration.paced import free_port
 
 pytestmark = pytest.mark.skipif(
     importlib.util.find_spec("unitree_sdk2py") is None or importlib.util.find_spec("cyclonedds") is None,

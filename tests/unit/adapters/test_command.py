@@ -6,10 +6,10 @@ from typing import Any
 import pytest
 from pymavlink.dialects.v20 import common as mavlink
 
-from crew.adapter import StopLatch
+from crew.adapter import Permit, StopLatch
 from crew.adapters.mavlink.command import Command, Commander, Position
 from crew.adapters.mavlink.statustext import StatusLog
-from crew.adapters.mavlink.writer import Permit, Writer
+from crew.adapters.mavlink.writer import Writer
 from crew.clock import SimClock
 from crew.errors import AdapterError, Latched
 from tests.unit.adapters.fake import Wire, ack, finish, text

@@ -6,8 +6,8 @@ from typing import Any
 import pytest
 from pymavlink.dialects.v20 import common as mavlink
 
-from crew.adapter import StopLatch
-from crew.adapters.mavlink.writer import Permit, Writer, causes_motion
+from crew.adapter import Permit, StopLatch
+from crew.adapters.mavlink.writer import Writer, causes_motion
 from crew.errors import AdapterError, Latched
 from tests.unit.adapters.fake import Wire, arm, heartbeat
 
