@@ -3,7 +3,7 @@
 import os
 import signal
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator
 from typing import Any
 
 import msgspec
@@ -12,10 +12,9 @@ import zenoh
 from crew.messages import CrewStatus
 from tests.attack.forgery import ACT, FORGERIES, Forgery, forged
 from tests.attack.row import Row
-from tests.attack.scene import ATTACKERS, Heard, Scene
+from tests.attack.scene import ARRIVE_S, ATTACKERS, Heard, Scene, arrived
 from tests.integration.crew.harness import children_of
 
-ARRIVE_S = 5.0
 REMOTE = zenoh.Locality.REMOTE
 WILD = ("crew/**", "**", "**/@act/**", "crew/*/*/@act/**", "crew/{crew}/*/@act/**", "crew/{crew}/tb3/@act/**")
 SILENCE = "nothing: the put returns, and nobody hears it"
@@ -44,10 +43,10 @@ def _forge(scene: Scene, forgery: Forgery) -> Row:
     seen = _operator_sees(before, _status(scene))
     delivered = sum(len(scene.marked(f"{stem}-by-{attacker}")) for attacker in by)
     if forgery.live:
-        controlled = _arrived(lambda: [h for h in scene.heard if h.key == key and h.witness == forgery.witness])
+        controlled = arrived(lambda: [h for h in scene.heard if h.key == key and h.witness == forgery.witness])
     else:
         put(forgery.rightful, f"{stem}-control")
-        controlled = _arrived(lambda: [h for h in scene.marked(f"{stem}-control") if h.witness == forgery.witness])
+        controlled = arrived(lambda: [h for h in scene.marked(f"{stem}-control") if h.witness == forgery.witness])
     return _row(forgery.name, by, len(by), delivered, SILENCE, seen, forgery.rightful, controlled)
 
 
@@ -93,10 +92,10 @@ def _publish(scene: Scene) -> Row:
     sees = "its publisher matches nobody" if not matching else f"MATCHES {matching}"
     own = scene.session("orchestrator").declare_publisher(scene.key(ACT))
     scene.keep(own)
-    _arrived(lambda: [own] if _matches(own) else [])
+    arrived(lambda: [own] if _matches(own) else [])
     payload, encoding = forged(ACT, "published-control")
     own.put(payload, encoding=encoding)
-    controlled = _arrived(lambda: scene.marked("published-control"))
+    controlled = arrived(lambda: scene.marked("published-control"))
     return _row(
         "declared publisher of an actuation key", by, len(by), delivered, sees, seen, "orchestrator", controlled
     )
@@ -122,7 +121,7 @@ def _query(scene: Scene) -> Row:
     replies = sum(_asked(scene, attacker, key) for attacker, keys in asked.items() for key in keys)
     seen = _operator_sees(before, _status(scene))
     attempts = sum(len(keys) for keys in asked.values())
-    controlled = _asked(scene, "operator", scene.key("status"), wait_s=2.0)
+    controlled = _asked(scene, "operator", scene.key("status"), wait_s=ARRIVE_S)
     name = "query of actuation keys, of everything, of the router itself, of the status"
     return _row(
         name, tuple(asked), attempts, replies + len(heard), "no reply", seen, "operator asks status", controlled
@@ -140,7 +139,7 @@ def _rogue_queryable(scene: Scene) -> Row:
             scene.keep(rogue)
     scene.settle()
     before = _steady(scene)
-    replies = _asked(scene, "operator", scene.key("status"), wait_s=2.0)
+    replies = _asked(scene, "operator", scene.key("status"), wait_s=ARRIVE_S)
     seen = _operator_sees(before, _status(scene))
     name = "rogue queryable of the status, of requests, of everything"
     return _row(name, by, 3 * len(by), len(heard), "is never asked", seen, "orchestrator answers", min(replies, 1))
@@ -173,7 +172,7 @@ def _announce(scene: Scene) -> Row:
     scene.settle()
     seen = _operator_sees(before, _status(scene))
     delivered = sum(len(scene.marked(f"ghost-{attacker}")) for attacker in by)
-    controlled = _arrived(lambda: [h for h in scene.heard if (h.kind, h.key) == ("put", scene.key("iris/alive"))])
+    controlled = arrived(lambda: [h for h in scene.heard if (h.kind, h.key) == ("put", scene.key("iris/alive"))])
     return _row("liveliness in another name", by, len(by), delivered, "nothing", seen, "robot-iris", controlled)
 
 
@@ -189,7 +188,7 @@ def _withdraw(scene: Scene) -> Row:
     seen = _operator_sees(before, _status(scene))
     delivered = len(_gone(scene, "tb3")) + len(_gone(scene, "orchestrator")) - count
     os.kill(children_of(scene.running.pid)["planner"], signal.SIGKILL)
-    controlled = _arrived(lambda: list(_gone(scene, "planner")))
+    controlled = arrived(lambda: list(_gone(scene, "planner")))
     name = "liveliness of a robot and of the orchestrator, announced and withdrawn"
     return _row(name, by, 2 * len(by), delivered, "nothing", seen, "the planner is killed", controlled)
 
@@ -203,7 +202,7 @@ def _act(scene: Scene, letter: str) -> tuple[str, int]:
     mark = f"act-control-{letter}"
     payload, encoding = forged(ACT, mark)
     scene.session("orchestrator").put(scene.key(ACT), payload, encoding=encoding)
-    return "orchestrator", _arrived(lambda: [h for h in scene.marked(mark) if h.witness == "robot-tb3"])
+    return "orchestrator", arrived(lambda: [h for h in scene.marked(mark) if h.witness == "robot-tb3"])
 
 
 def _others(rightful: str) -> tuple[str, ...]:
@@ -216,16 +215,8 @@ def _asked(scene: Scene, role: str, key: str, *, wait_s: float = 0.3) -> int:
     return sum(1 for reply in replies if reply.ok is not None)
 
 
-def _arrived(look: Callable[[], Sequence[object]]) -> int:
-    """Wait for something to be there; how much is."""
-    deadline = time.monotonic() + ARRIVE_S
-    while not (found := look()) and time.monotonic() < deadline:
-        time.sleep(0.02)
-    return len(found)
-
-
 def _status(scene: Scene) -> CrewStatus:
-    for reply in scene.session("operator").get(scene.key("status"), timeout=3.0):
+    for reply in scene.session("operator").get(scene.key("status"), timeout=ARRIVE_S):
         if reply.ok is not None:
             return msgspec.msgpack.decode(reply.ok.payload.to_bytes(), type=CrewStatus)
     raise AssertionError("the orchestrator does not answer")

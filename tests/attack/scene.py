@@ -1,7 +1,7 @@
 """The scene of the attacks: a crew that is up, attackers' sessions, and witnesses at everybody's ears."""
 
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager
 
 import msgspec
@@ -16,6 +16,7 @@ from crew.keys import Keys
 INSIDERS = ("planner", "gateway", "robot-iris", "robot-tb3", "simulation", "recorder", "operator")
 ATTACKERS = ("guest", *INSIDERS)
 WITNESSES = ("orchestrator", "robot-tb3", "simulation", "operator")
+ARRIVE_S = 10.0
 SETTLE_S = 0.4
 """For declarations and samples to get to where they could get, on a loaded machine."""
 
@@ -83,6 +84,14 @@ class Scene:
     def settle(self) -> None:
         """Wait until what could arrive has arrived."""
         time.sleep(SETTLE_S)
+
+
+def arrived(look: Callable[[], Sequence[object]]) -> int:
+    """Wait for what a positive control sent to be there; how much is."""
+    deadline = time.monotonic() + ARRIVE_S
+    while not (found := look()) and time.monotonic() < deadline:
+        time.sleep(0.02)
+    return len(found)
 
 
 @contextmanager

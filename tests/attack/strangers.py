@@ -17,11 +17,12 @@ from crew.launch.table import free_tcp_port
 from tests.attack.forgery import ACT, forged
 from tests.attack.mint import mint
 from tests.attack.row import Row
-from tests.attack.scene import Scene
+from tests.attack.scene import ARRIVE_S, Scene, arrived
 from tests.integration.crew.harness import children_of
 
 NOBODY_NOTICES = "nothing: no session, so no role"
 TRY_S = 0.6
+"""An attack's patience; a positive control is given longer."""
 
 Tls: TypeAlias = dict[str, str | bool]
 
@@ -121,7 +122,7 @@ def _unknown_role(scene: Scene, certificates: Path) -> Row:
     _close(session)
     payload, encoding = forged(ACT, "root-control")
     scene.session("orchestrator").put(scene.key(ACT), payload, encoding=encoding)
-    scene.settle()
+    controlled = arrived(lambda: scene.marked("root-control"))
     return Row(
         attack="put on actuation, stop, request and state with a certificate for a name that is no role",
         by=("`root`, issued by the crew's own authority",),
@@ -129,7 +130,7 @@ def _unknown_role(scene: Scene, certificates: Path) -> Row:
         delivered=delivered,
         attacker_sees="nothing: the put returns, and nobody hears it",
         control="orchestrator",
-        controlled=len(scene.marked("root-control")),
+        controlled=controlled,
     )
 
 
@@ -184,7 +185,7 @@ def _rogue_router(scene: Scene, attack: str, certificates: Path) -> Row:
         attacker_sees="the robot breaks the handshake off",
         operator_sees="the robot that was led there says that it finds no router",
         control="robot-tb3 at the crew's router",
-        controlled=int(_robot_opens(scene, scene.running.endpoint)),
+        controlled=int(_robot_opens(scene, scene.running.endpoint, ARRIVE_S)),
     )
 
 
@@ -219,19 +220,23 @@ def _robot_hears(scene: Scene) -> bool:
     heard: list[str] = []
     robot = open_session(scene.running.link("robot-tb3"))
     kept = robot.declare_subscriber(scene.key("tb3/@act/**"), lambda sample: heard.append(str(sample.key_expr)))
-    scene.settle()
     payload, encoding = forged(ACT, "rogue-control")
-    scene.session("orchestrator").put(scene.key(ACT), payload, encoding=encoding)
-    scene.settle()
+
+    def put_again() -> list[str]:
+        """Until the subscription is known to the router."""
+        scene.session("orchestrator").put(scene.key(ACT), payload, encoding=encoding)
+        return heard
+
+    arrived(put_again)
     kept.undeclare()  # type: ignore[no-untyped-call]
     _close(robot)
     return bool(heard)
 
 
-def _robot_opens(scene: Scene, endpoint: str) -> bool:
+def _robot_opens(scene: Scene, endpoint: str, timeout_s: float = TRY_S) -> bool:
     link = Link(role="robot-tb3", endpoint=endpoint, crew=scene.running.crew, certificates=scene.running.certificates)
     try:
-        _close(open_session(link, timeout_s=TRY_S))
+        _close(open_session(link, timeout_s=timeout_s))
     except CrewError:
         return False
     return True
