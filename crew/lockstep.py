@@ -4,6 +4,7 @@ The acknowledgement is withheld while work is in flight here: a busy clock, or d
 """
 
 import asyncio
+import sys
 from collections.abc import Callable
 
 from crew.bus.port import Bus, Qos
@@ -16,12 +17,45 @@ HOLD_EVERY_S = 0.25
 """Wall time between two signs of life while a slice is withheld; the simulation drops a participant silent for 1 s."""
 LOST_AFTER_S = 0.5
 """Wall time after which a datagram of the vendor's link counts as lost."""
-LATE_S = 0.02
-"""Wall time that is granted to what counts as lost, in each of the next slices: it may only be late."""
-DOUBTS = 20
-"""Slices in which what counts as lost is still looked for."""
+BACK_S = 0.02
+"""The same in the slice in which a link is back, the first of whose datagrams went nowhere."""
+WINDOW = 20
+"""Slices after which it is looked at anew how much was lost for good and how much was only late."""
 TURNS = 3
 """Turns of the loop that timers and mailboxes get before a slice counts as done."""
+
+
+class Losses:
+    """How many datagrams of a link will never come, known from counts alone."""
+
+    def __init__(self) -> None:
+        self._lost = 0
+        self._surplus = sys.maxsize
+        """The least that was received beyond what was awaited, over the slices of the window."""
+        self._slices = 0
+
+    def complete(self, expected: int, received: int) -> bool:
+        """Whether everything that will ever come of `expected` datagrams has come."""
+        return received + self._lost >= expected
+
+    def give_up(self, expected: int, received: int) -> None:
+        """What has not come yet counts as lost."""
+        self._lost = max(0, expected - received)
+        self._surplus, self._slices = sys.maxsize, 0
+
+    def review(self, expected: int, received: int) -> None:
+        """At the end of each slice. What was only late must not stand for what comes after it.
+
+        More is received than was sent before the tick where the simulation answers a command meanwhile, but not in
+        every slice of a window: what is over in all of them was counted as lost and has come.
+        """
+        if not self._lost:
+            return
+        self._surplus = min(self._surplus, received + self._lost - expected)
+        self._slices += 1
+        if self._slices == WINDOW:
+            self._lost -= min(max(0, self._surplus), self._lost)
+            self._surplus, self._slices = sys.maxsize, 0
 
 
 class Participant:
@@ -45,9 +79,7 @@ class Participant:
         self._ticks: KeepLatest[Letter[ClockTick]] = KeepLatest(letters(ClockTick))
         self._subscription = bus.subscribe(keys.clock, self._ticks)
         self._acks = bus.publisher(keys.clock_ack(name), qos=Qos.EVENT)
-        self._lost = 0
-        self._doubts = 0
-        """Slices that still look for what counts as lost."""
+        self._losses = Losses()
         self._down_at = -1
         """Datagrams received when one was last given up: until another comes, the link counts as down."""
 
@@ -78,28 +110,26 @@ class Participant:
         self._ack(tick.slice)
 
     async def _await_datagrams(self, tick: ClockTick) -> None:
-        """Wait for what the simulation sent to this link; what has not come after a while counts as lost.
-
-        What was only late must not stand for what came after it, or the link would stay behind by as much for good.
-        """
+        """Wait for what the simulation sent to this link; what has not come after a while counts as lost."""
         expected = tick.datagrams.get(self._name, 0)
+        was_down = self._down_at >= 0
         if await self._is_down():
-            self._lost = expected - self._received
+            self._losses.give_up(expected, self._received)
             return
-        arrived = self._hold(tick.slice, lambda: self._received + self._lost >= expected, self._traffic)
-        if not await WALL.race(arrived, LOST_AFTER_S):
-            self._lost, self._down_at, self._doubts = expected - self._received, self._received, DOUBTS
-        elif self._lost and self._doubts:
-            await WALL.race(self._hold(tick.slice, lambda: self._received >= expected, self._traffic), LATE_S)
-            self._lost, self._doubts = max(0, expected - self._received), self._doubts - 1
+        arrived = self._hold(tick.slice, lambda: self._losses.complete(expected, self._received), self._traffic)
+        if not await WALL.race(arrived, BACK_S if was_down else LOST_AFTER_S):
+            self._losses.give_up(expected, self._received)
+            self._down_at = -1 if was_down else self._received
+        self._losses.review(expected, self._received)
 
     async def _is_down(self) -> bool:
         """Whether nothing has come since datagrams were given up; what waits in the socket is read first."""
         for _ in range(TURNS):
             if self._received != self._down_at:
+                self._down_at = -1
                 return False
             await turn()
-        return self._received == self._down_at
+        return True
 
     @property
     def _received(self) -> int:
