@@ -34,7 +34,7 @@ def spinning() -> None:
 
 @pytest.mark.parametrize("block", [asleep, spinning])
 async def test_a_drone_whose_loop_is_blocked_stops_at_once(desk: Desk, block: Callable[[], None]) -> None:
-    async with crew_with_threads(desk, "iris", speed=2.0) as crew:
+    async with crew_with_threads(desk, "iris", speed=3.0) as crew:
         watch, iris = crew.watch, crew.threads["iris"]
         search = watch.ask(SEARCH)
         await watch.airborne()
@@ -76,7 +76,7 @@ async def test_a_latched_adapter_refuses_its_own_process_and_sends_nothing(desk:
 
 
 async def test_robots_stop_while_the_orchestrators_loop_is_blocked(desk: Desk) -> None:
-    async with crew_with_threads(desk, "orchestrator", speed=2.0) as crew:
+    async with crew_with_threads(desk, "orchestrator", speed=3.0) as crew:
         watch = crew.watch
         search = watch.ask(SEARCH)
         await watch.airborne()
