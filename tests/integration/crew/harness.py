@@ -115,7 +115,6 @@ class Up:
                 stdout=output,
                 stderr=subprocess.STDOUT,
                 start_new_session=True,
-                preexec_fn=_heed_interrupts,
             )
 
     @property
@@ -159,11 +158,6 @@ class Up:
             self.process.send_signal(signal.SIGABRT)
             self.process.wait()
         raise AssertionError(f"not down after {seconds} s: {self.said[-6000:]}")
-
-
-def _heed_interrupts() -> None:
-    """Ctrl-C counts, even if the tests run in the background of a shell that ignores it for them."""
-    signal.signal(signal.SIGINT, signal.SIG_DFL)
 
 
 def children_of(pid: int) -> dict[str, int]:
