@@ -6,7 +6,7 @@ ARGS ?=
 
 SOURCES := $(shell find actors adapters contracts crew sim -name '*.py')
 
-.PHONY: help demo test check bench hostile mavproxy soak picture study accuracy sdk smoke clean
+.PHONY: help demo test check bench hostile mavproxy menagerie soak picture study accuracy sdk smoke clean
 
 help:  ## this list
 	@grep -E '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):.*## */make \1\t/' | expand -t 14
@@ -31,6 +31,9 @@ hostile: .venv/.ready  ## the twenty hostile cases, against crews that are up (d
 
 mavproxy: .venv/.ready  ## the simulated vehicles flown by MAVProxy (CREW_MAVPROXY=its mavproxy.py, docs/decisions/0066)
 	$(BIN)/python -m pytest -m mavproxy tests/integration/clients $(ARGS)
+
+menagerie: .venv/.ready  ## the testbed with MuJoCo Menagerie's robots (CREW_MENAGERIE=its folder, docs/decisions/0087)
+	$(BIN)/python -m pytest -m menagerie tests/integration/unitree $(ARGS)
 
 soak: .venv/.ready  ## the long tests: those marked soak, and every property with many more examples
 	$(BIN)/python -m pytest -m "soak or hypothesis" --hypothesis-profile=soak $(ARGS)

@@ -33,6 +33,8 @@ class RobotActorSpec(msgspec.Struct, frozen=True, kw_only=True):
     simulated: bool
     operator_key: bytes
     orchestrator_key: bytes
+    models: str = ""
+    """Folder of the robots' models where they are not this project's own."""
     enforced: bool = True
     """False in the study's unenforced arms alone: neither the robot's second check nor its adapter's own is made."""
 

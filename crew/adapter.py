@@ -38,6 +38,8 @@ class AdapterConfig(msgspec.Struct, frozen=True, kw_only=True):
     """The crew's named places: world ENU, metres."""
     separation_m: float = 0.0
     """How far a drone that comes down and robots on the ground keep from each other, between the places they tell."""
+    models: str = ""
+    """Folder of other models of the robots than this project's own, with their descriptions; empty for its own."""
     geofence: bool = True
     fitness: bool = True
     """Whether a skill is refused while the robot reports a fault; without it the robot itself has the only word.

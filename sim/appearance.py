@@ -20,6 +20,8 @@ _KINDS = {
     int(mujoco.mjtGeom.mjGEOM_MESH): "mesh",
 }
 """What is drawn. The ground is a plane, which has no end and is left to whoever draws."""
+DRAWN_GROUPS = 3
+"""MuJoCo's convention: groups from this on hold what only touches, beside the shapes that are seen."""
 
 
 class Appearance:
@@ -49,7 +51,8 @@ class Appearance:
 
     def _shapes(self) -> Iterator[SimShape]:
         for geom in range(self._model.ngeom):
-            if kind := _KINDS.get(int(self._model.geom_type[geom])):
+            kind = _KINDS.get(int(self._model.geom_type[geom]))
+            if kind and int(self._model.geom_group[geom]) < DRAWN_GROUPS:
                 yield self._shape(geom, kind)
 
     def _shape(self, geom: int, kind: str) -> SimShape:

@@ -2,6 +2,7 @@
 
 import importlib
 from collections.abc import Iterable, Mapping
+from pkgutil import resolve_name
 from types import TracebackType
 from typing import TYPE_CHECKING, Any, Protocol, Self
 
@@ -28,6 +29,9 @@ SCENES = {
     ),
 }
 """Each scene's world, the surveyor of its maps, and the names of its faults beside those of its vehicles."""
+
+MODELS = {"apartment": "crew.sim.unitree.menagerie:check"}
+"""What checks a folder of other models of the robots, for the scenes that take any."""
 
 
 class Survey(msgspec.Struct, frozen=True):
@@ -98,6 +102,15 @@ def map_names(scene: str) -> tuple[str, ...]:
 def fault_names(scene: str, vehicles: Iterable[str]) -> tuple[str, ...]:
     """The faults that `--fault` takes for a scene with these vehicles. Raises MapError for an unknown scene."""
     return (*_load(scene, 2), *(unavailable(vehicle) for vehicle in vehicles))
+
+
+def check_models(scene: str, folder: str) -> None:
+    """Whether a scene can be built with the models of a folder; an empty one is the scene's own. Raises ValueError."""
+    if not folder:
+        return
+    if scene not in MODELS:
+        raise ValueError(f"the scene {scene} has robots of its own alone; {', '.join(sorted(MODELS))} takes others")
+    resolve_name(MODELS[scene])(folder)
 
 
 def _load(scene: str, part: int) -> Any:

@@ -15,7 +15,9 @@ SHIPPED = {
 """Adapters of this distribution: found without reading what else is installed."""
 
 
-def make_adapter(robot: RobotSpec, rules: Rules, connection: str, clock: Clock, *, enforced: bool = True) -> Adapter:
+def make_adapter(
+    robot: RobotSpec, rules: Rules, connection: str, clock: Clock, *, models: str = "", enforced: bool = True
+) -> Adapter:
     """The adapter that the crew file names. Raises UsageError with the installed names for an unknown one."""
     place = SHIPPED.get(robot.adapter) or _installed(robot.adapter)
     crew = rules.crew
@@ -29,6 +31,7 @@ def make_adapter(robot: RobotSpec, rules: Rules, connection: str, clock: Clock, 
         obstacles=crew.obstacles,
         separation_m=crew.separation.told_m,
         locations={place.name: (place.x, place.y) for place in crew.locations},
+        models=models,
         geofence=enforced,
         fitness=enforced,
     )

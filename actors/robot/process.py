@@ -32,7 +32,7 @@ async def serve(spec: RobotActorSpec, rules: Rules, bus: Bus, context: ChildCont
     clock = SimClock() if spec.simulated else WallClock()
     if not spec.enforced:
         require_simulated(rules.crew)
-    adapter = make_adapter(robot, rules, spec.connection, clock, enforced=spec.enforced)
+    adapter = make_adapter(robot, rules, spec.connection, clock, models=spec.models, enforced=spec.enforced)
     keyring = (spec.operator_key, spec.orchestrator_key)
     actor = RobotActor(bus, keys, robot, rules, adapter, clock, *keyring, enforced=spec.enforced)
     async with asyncio.TaskGroup() as group:

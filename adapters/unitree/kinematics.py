@@ -5,14 +5,12 @@ travel. Poses are mink's SE3. Sends nothing and knows no time.
 """
 
 import math
-from pathlib import Path
 
 import mink
-import mujoco
 import numpy as np
 
-MODEL = Path(__file__).parent / "models" / "arm.xml"
-SITE = "grasp"
+from crew.adapters.unitree.description import SITE, describe
+
 SOLVER = "daqp"
 STEP_S = 0.05
 DAMPING = 1e-3
@@ -29,10 +27,10 @@ Joints = tuple[float, ...]
 
 
 class Arm:
-    """Kinematics of the waist and one arm. `step` moves joints a little towards a goal."""
+    """Kinematics of the waist and one arm. `step` moves joints a little towards a goal. `models` as in `describe`."""
 
-    def __init__(self) -> None:
-        self._model = mujoco.MjModel.from_xml_path(str(MODEL))
+    def __init__(self, models: str = "") -> None:
+        self._model = describe(models)
         self._configuration = mink.Configuration(self._model)
         self._hand = mink.FrameTask(SITE, "site", position_cost=1.0, orientation_cost=ORIENTATION_COST, lm_damping=1e-4)
         self._posture = mink.PostureTask(self._model, cost=np.array(POSTURE_COSTS))

@@ -58,7 +58,7 @@ class ManipulatorSkills:
     def __init__(self, robot: Robot, options: ManipulatorOptions) -> None:
         self.robot = robot
         self._options = options
-        self._arm = Arm()
+        self._arm = Arm(robot.config.models)
         self._sights = Sights(robot, options.stands_at, options.reach_m)
         self._aim: Joints | None = None
         """Joint targets as last sent; None while the arm is not commanded here."""

@@ -12,6 +12,10 @@ CrewName = Annotated[str, typer.Argument(metavar="[CREW]", help="A shipped crew'
 CrewOption = Annotated[str, typer.Option("--crew", help="The crew to speak to; may be left out if one runs.")]
 AsJson = Annotated[bool, typer.Option("--json", help="Print JSON for machines.")]
 Map = Annotated[str | None, typer.Option("--map", help="The simulated site's map.")]
+Models = Annotated[
+    str,
+    typer.Option("--models", help="Folder of MuJoCo Menagerie, whose robots then take the place of the scene's own."),
+]
 Seed = Annotated[int | None, typer.Option(help="Seed of the simulation's noise.")]
 Speed = Annotated[str, typer.Option(help="Pace of the simulation: a multiple of real time, or max.")]
 Planner = Annotated[str, typer.Option(help="Who plans: embedded, anthropic, compatible, fallible, recorded or script.")]

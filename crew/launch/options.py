@@ -26,6 +26,8 @@ class LaunchOptions(msgspec.Struct, frozen=True, kw_only=True):
     record: bool = True
     """Whether a recorder draws the run."""
     contracts: tuple[Path, ...] = ()
+    models: str = ""
+    """Folder of other models of the robots than the scene's own; absolute."""
 
 
 def parse_speed(text: str) -> float:

@@ -28,6 +28,7 @@ def resolve(options: LaunchOptions) -> Rules:
         faults=(*crew.sim.faults, *options.faults),
         autopilots=crew.sim.autopilots,
     )
+    _check_models(sim.scene, options.models)
     return replace(rules, crew=_surveyed(crew, sim))
 
 
@@ -43,11 +44,25 @@ def _check_real(crew: Crew, real: list[str], options: LaunchOptions) -> None:
         raise UsageError(
             f"--single-process with real robots ({', '.join(real)}): one process would hold every key; leave it out"
         )
-    for given, option in ((options.faults, "--fault"), (options.map, "--map"), (options.seed is not None, "--seed")):
+    for given, option in (
+        (options.faults, "--fault"),
+        (options.map, "--map"),
+        (options.seed is not None, "--seed"),
+        (options.models, "--models"),
+    ):
         if given:
             raise UsageError(
                 f"{option} is for a simulated site, and {', '.join(real)} has a real connection; leave it out"
             )
+
+
+def _check_models(scene: str, folder: str) -> None:
+    from crew.sim.scenes import check_models
+
+    try:
+        check_models(scene, folder)
+    except ValueError as error:
+        raise UsageError(f"--models: {error}") from error
 
 
 def _surveyed(crew: Crew, sim: SimSpec) -> Crew:

@@ -63,6 +63,7 @@ def process_table(
                 simulated=simulated,
                 operator_key=operator_key,
                 orchestrator_key=orchestrator_key,
+                models=options.models,
             ),
         )
         for robot in rules.crew.robots
@@ -125,6 +126,7 @@ def _simulation(rules: Rules, options: LaunchOptions, running: Running, ports: M
         seed=sim.seed,
         faults=sim.faults,
         autopilots=dict(sim.autopilots),
+        models=options.models,
         links={robot.sim: f"udp:127.0.0.1:{ports[robot.name]}" for robot in rules.crew.robots},
     )
     vehicles = {robot.name: robot.sim for robot in rules.crew.robots}

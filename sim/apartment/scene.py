@@ -7,6 +7,7 @@ from typing import Any
 import mujoco
 
 from crew.sim.apartment.site import BODY_BEHIND_M, BODY_RADIUS_M, WALL_M, Doorway, Site, Table, Thing, Wall
+from crew.sim.unitree import menagerie
 
 MODELS = Path(__file__).parents[1] / "models"
 ROBOTS = {"g1": 0.0, "go2": 0.335}
@@ -17,8 +18,11 @@ CRATE_AWAY = (0.0, 0.0, -3.0)
 FRICTION = [0.9, 0.005, 0.0001]
 
 
-def build(site: Site) -> Any:
-    """The compiled MjModel. Names begin with the robot's, `requester/`, `thing/`, `crate/` or `obstacle/`."""
+def build(site: Site, models: str = "") -> Any:
+    """The compiled MjModel. Names begin with the robot's, `requester/`, `thing/`, `crate/` or `obstacle/`.
+
+    `models`: MuJoCo Menagerie's folder, whose robots then take the place of this project's own. Raises ModelsError.
+    """
     spec = mujoco.MjSpec()
     spec.compiler.degree = False
     spec.option.timestep = TIMESTEP_NS * 1e-9
@@ -35,7 +39,9 @@ def build(site: Site) -> Any:
         _add_table(spec, table)
     for name, height_m in ROBOTS.items():
         pose = site.robots[name]
-        child = mujoco.MjSpec.from_file(str(MODELS / f"{name}.xml"))
+        child = menagerie.robot(name, models) if models else mujoco.MjSpec.from_file(str(MODELS / f"{name}.xml"))
+        if models:
+            menagerie.agree(child, spec)
         frame = spec.worldbody.add_frame(pos=[pose.x_m, pose.y_m, height_m], quat=_yaw_quaternion(pose.yaw_rad))
         spec.attach(child, prefix=f"{name}/", frame=frame)
     for doorway in site.doorways:

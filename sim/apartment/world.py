@@ -29,6 +29,7 @@ from crew.sim.faults import Faults
 from crew.sim.noise import stream
 from crew.sim.scenes import Eye
 from crew.sim.truth import SceneTruth
+from crew.sim.unitree.build import MENAGERIE, OWN
 from crew.sim.unitree.g1 import G1
 from crew.sim.unitree.go2 import Go2
 from crew.sim.unitree.link import Link
@@ -52,14 +53,14 @@ class Apartment:
             raise ValueError(f"links: has {sorted(config.links)}, the scene needs {sorted(ROBOTS)}")
         endpoints = {name: parse_endpoint(text) for name, text in config.links.items()}
         self._faults = Faults(ROBOTS, config.faults, shared=NAMES)
-        self._model: Any = build(self.site)
+        self._model: Any = build(self.site, config.models)
         self._data: Any = mujoco.MjData(self._model)
         self._steps = 0
         self._links = {name: Link(address) for name, address in endpoints.items()}
         self._g1 = G1(self._model, self._data, "g1", link=self._links["g1"], step_s=CONTROL_S)
         self._go2 = Go2(
             self._model, self._data, "go2", link=self._links["go2"], seed=config.seed, noise=config.noise,
-            step_s=CONTROL_S, tick_s=TICK_S,
+            step_s=CONTROL_S, tick_s=TICK_S, build=MENAGERIE if config.models else OWN,
         )  # fmt: skip
         things = {thing.name: thing.mass_kg for thing in self.site.things}
         self._requester = Requester(self._model, self._data, self.site.requester, tuple(things), TICK_S)

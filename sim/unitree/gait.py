@@ -6,6 +6,7 @@ Frames: "level" is the trunk's frame turned upright: x ahead along its heading, 
 import math
 from enum import StrEnum
 
+from crew.sim.unitree.build import OWN, Build
 from crew.sim.unitree.leg import Leg, Vector, torques, velocity
 from crew.sim.unitree.stance import stance_forces
 
@@ -25,7 +26,6 @@ LIFT_M = 0.06
 HEIGHT_M = 0.31
 LYING_M = 0.12
 RISE_MPS = 0.15
-MASS_KG = 16.6
 STEP_MAX_M = 0.16
 SPEED_FEEDBACK_S = 0.06
 """How far a foot lands further out for each m/s that the trunk is too fast."""
@@ -56,12 +56,12 @@ class Sensed:
 
 
 class Gait:
-    """Turns a wanted velocity into twelve torques. `step` at a fixed period."""
+    """Turns a wanted velocity into twelve torques, for one build of body. `step` at a fixed period."""
 
-    def __init__(self, step_s: float) -> None:
+    def __init__(self, step_s: float, build: Build = OWN) -> None:
         self.posture = Posture.DAMPED
         self.payload_kg = 0.0
-        self._step_s = step_s
+        self._step_s, self._build = step_s, build
         self._phase = 0.0
         self._height_m = LYING_M
         self._wanted: Vector = (0.0, 0.0, 0.0)
@@ -113,7 +113,14 @@ class Gait:
                 speed = tilt.level(velocity(columns, (rates[3 * i], rates[3 * i + 1], rates[3 * i + 2])))
                 force = tilt.trunk(self._reach(i, swings[i] or 0.0, feet[i], speed, sensed))
             found.extend(torques(columns, force))
-        return found
+        return self._overcome(found, rates)
+
+    def _overcome(self, pushes: list[float], rates: list[float]) -> list[float]:
+        """Torques with what the joints' bearings take from them while the legs swing."""
+        damping = self._build.damping_nms
+        if not damping or self.posture is not Posture.WALKING:
+            return pushes
+        return [push + damping * rate for push, rate in zip(pushes, rates, strict=True)]
 
     # What is wanted now.
 
@@ -165,7 +172,7 @@ class Gait:
         n = len(standing)
         vx, vy, vz = sensed.velocity
         wx, wy, ww = self._eased
-        mass = MASS_KG + self.payload_kg
+        mass = self._build.mass_kg + self.payload_kg
         height = -sum(feet[i][2] for i in standing) / n
         ax, ay = 5.0 * (wx - vx), 5.0 * (wy - vy)
         if self.posture is not Posture.WALKING:

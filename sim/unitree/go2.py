@@ -9,8 +9,10 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 import mujoco
+import numpy as np
 
 from crew.sim.noise import GaussMarkov, stream
+from crew.sim.unitree.build import OWN, Build
 from crew.sim.unitree.gait import Gait, Posture, Sensed
 from crew.sim.unitree.link import Link
 from crew.sim.unitree.rpc import Service, Switchboard, number_of
@@ -26,6 +28,8 @@ POSITION_TAU_S, HEADING_TAU_S = 8.0, 8.0
 VELOCITY_SIGMA_MPS = 0.02
 ATTITUDE_SIGMA_RAD = math.radians(0.3)
 BATTERY_WH = 230.0
+MOTORS = tuple(f"{leg}_{part}" for leg in ("FR", "FL", "RR", "RL") for part in ("hip", "thigh", "calf"))
+"""In the SDK's order; a model may have them in another."""
 STANDING = (0.0, 0.773, -1.546)
 """Joint angles of one leg that stands."""
 FIT, UNFIT = 0, 1001
@@ -39,7 +43,17 @@ class Go2:
     """One robot of the world. `control` at each control step, `tick` at the telemetry's rate."""
 
     def __init__(
-        self, model: Any, data: Any, name: str, *, link: Link, seed: int, noise: bool, step_s: float, tick_s: float
+        self,
+        model: Any,
+        data: Any,
+        name: str,
+        *,
+        link: Link,
+        seed: int,
+        noise: bool,
+        step_s: float,
+        tick_s: float,
+        build: Build = OWN,
     ) -> None:
         self.link = link
         self.unfit = False
@@ -53,12 +67,12 @@ class Go2:
         joint = model.body(f"{name}/trunk").jntadr[0]
         start, speed = int(model.jnt_qposadr[joint]), int(model.jnt_dofadr[joint])
         self._pose, self._twist = data.qpos[start : start + 7], data.qvel[speed : speed + 6]
-        self._joints, self._rates = data.qpos[start + 7 : start + 19], data.qvel[speed + 6 : speed + 18]
-        first = int(model.actuator(f"{name}/FR_hip").id)
-        self._torques = data.ctrl[first : first + 12]
-        for leg in range(4):
-            self._joints[3 * leg : 3 * leg + 3] = STANDING
-        self._gait = Gait(step_s)
+        joints = [model.joint(f"{name}/{motor}") for motor in MOTORS]
+        self._joints = np.array([int(joint.qposadr[0]) for joint in joints])
+        self._rates = np.array([int(joint.dofadr[0]) for joint in joints])
+        self._motors = np.array([int(model.actuator(f"{name}/{motor}").id) for motor in MOTORS])
+        data.qpos[self._joints] = STANDING * 4
+        self._gait = Gait(step_s, build)
         self._gait.take(Posture.RISING)
         self._gait.stand_at_once()
         self._sensed = Sensed()
@@ -109,7 +123,9 @@ class Go2:
         if not self._fallen and max(abs(self._sensed.roll), abs(self._sensed.pitch)) > FALLEN_RAD:
             self._fallen = True
             self._gait.take(Posture.DAMPED)
-        self._torques[:] = self._gait.step(self._joints.tolist(), self._rates.tolist(), self._sensed)
+        data = self._data
+        joints, rates = data.qpos[self._joints].tolist(), data.qvel[self._rates].tolist()
+        data.ctrl[self._motors] = self._gait.step(joints, rates, self._sensed)
 
     def poll(self, now_ns: int) -> int:
         """Answer the calls that wait; how many."""
@@ -236,7 +252,7 @@ class Go2:
         }
 
     def _low_state(self) -> dict[str, Any]:
-        q, dq = self._joints.tolist(), self._rates.tolist()
+        q, dq = self._data.qpos[self._joints].tolist(), self._data.qvel[self._rates].tolist()
         return {
             "motor_state": [{"q": a, "dq": b} for a, b in zip(q, dq, strict=True)],
             "bms_state": {"soc": round(100.0 * self._charge_wh / BATTERY_WH)},

@@ -1,7 +1,8 @@
 """Deliveries of the humanoid and the quadruped over many seeds: adapters and simulation in lockstep, in one process.
 
 `python -m tests.study.humanoid_quadruped` measures what its results file does not hold yet and writes the page beside
-it; it may be stopped and started again. Three seeds of each are tests (tests/integration/unitree/test_missions.py).
+it; it may be stopped and started again. `--models FOLDER` measures MuJoCo Menagerie's robots instead, into files of
+their own. Three seeds of each are tests (tests/integration/unitree/test_missions.py).
 """
 
 import argparse
@@ -46,13 +47,15 @@ class Results(msgspec.Struct, frozen=True, kw_only=True):
     """What was measured, and with which version."""
 
     version: str
+    models: str = ""
+    """What the robots' models are of, where they are not this project's own."""
     trials: tuple[Trial, ...] = ()
 
 
-async def trial(mission: str, seed: int) -> Trial:
+async def trial(mission: str, seed: int, models: str = "") -> Trial:
     """Carry one mission out; a failure is a result."""
     began = time.monotonic()
-    async with stage(map_=MAPS[mission], seed=seed) as scene:
+    async with stage(map_=MAPS[mission], seed=seed, models=models) as scene:
         error = ""
         try:
             await (_hand(scene) if mission == "handover" else _carry(scene))
@@ -89,7 +92,7 @@ def page(results: Results) -> str:
 
 
 def _lines(results: Results) -> Iterator[str]:
-    yield "# The humanoid and the quadruped in numbers"
+    yield "# The humanoid and the quadruped in numbers" + (f": {results.models}" if results.models else "")
     yield ""
     yield f"Made by `python -m tests.study.humanoid_quadruped` with version {results.version}: adapters and"
     yield "simulation in lockstep, with noise; the seed moves things and the person. Distances are horizontal, by the"
@@ -120,10 +123,13 @@ def main() -> None:
     parser.add_argument("--out", type=Path, default=Path("docs/study"))
     parser.add_argument("--seeds", type=int, default=20)
     parser.add_argument("--mission", choices=MISSIONS, action="append", help="one of them alone")
+    parser.add_argument("--models", default="", help="MuJoCo Menagerie's folder")
+    parser.add_argument("--of", default="MuJoCo Menagerie", help="with --models: what is measured, such as its commit")
     parser.add_argument("--limit-s", type=float, default=3600.0)
     chosen = parser.parse_args()
-    path, end_s = chosen.out / "humanoid_quadruped.json", time.monotonic() + chosen.limit_s
-    results = Results(version=version("robot-crew"))
+    path = chosen.out / f"humanoid_quadruped{'_menagerie' if chosen.models else ''}.json"
+    end_s = time.monotonic() + chosen.limit_s
+    results = Results(version=version("robot-crew"), models=chosen.of if chosen.models else "")
     if path.exists():
         results = msgspec.json.decode(path.read_bytes(), type=Results)
     chosen.out.mkdir(parents=True, exist_ok=True)
@@ -131,11 +137,11 @@ def main() -> None:
         for seed in range(chosen.seeds):
             if any((t.mission, t.seed) == (mission, seed) for t in results.trials) or time.monotonic() > end_s:
                 continue
-            found = asyncio.run(trial(mission, seed))
+            found = asyncio.run(trial(mission, seed, chosen.models))
             print(f"{mission} {seed}: {'delivered' if found.delivered else 'NOT delivered'} {found}", flush=True)
             results = msgspec.structs.replace(results, trials=(*results.trials, found))
             path.write_bytes(msgspec.json.format(msgspec.json.encode(results), indent=1) + b"\n")
-    (chosen.out / "humanoid_quadruped.md").write_text(page(results), encoding="utf-8")
+    path.with_suffix(".md").write_text(page(results), encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -14,6 +14,7 @@ from crew.cli.option import (
     Fault,
     Map,
     Model,
+    Models,
     NoFallback,
     Planner,
     Record,
@@ -37,6 +38,7 @@ app = typer.Typer()
 def up(
     crew: CrewName = "air_ground",
     map_: Map = None,
+    models: Models = "",
     seed: Seed = None,
     speed: Speed = "1",
     planner: Planner = "embedded",
@@ -57,13 +59,14 @@ def up(
     from crew.cli.up import run_up
 
     planning = planning_of(planner, script, model, base_url, endpoint, context, no_fallback)
-    end(run_up(_options(crew, map_, seed, speed, planning, fault, port, runs, single_process, record), view))
+    end(run_up(_options(crew, map_, models, seed, speed, planning, fault, port, runs, single_process, record), view))
 
 
 @app.command()
 def demo(
     crew: CrewName = "air_ground",
     map_: Map = None,
+    models: Models = "",
     seed: Seed = None,
     request: Annotated[
         str | None, typer.Option(help="What to ask of the crew; if left out, its crew file says.")
@@ -86,7 +89,7 @@ def demo(
     from crew.cli.demo import run_demo
 
     planning = planning_of(planner, script, model, base_url, endpoint, context, no_fallback)
-    options = _options(crew, map_, seed, speed, planning, fault, 0, runs, single_process, record)
+    options = _options(crew, map_, models, seed, speed, planning, fault, 0, runs, single_process, record)
     end(run_demo(options, request, as_json))
 
 
@@ -149,6 +152,7 @@ def run_one(
 def _options(
     crew: str,
     map_: str | None,
+    models: str,
     seed: int | None,
     speed: str,
     planning: "PlannerChoice",
@@ -163,6 +167,7 @@ def _options(
     return LaunchOptions(
         crew=crew,
         map=map_,
+        models=str(Path(models).expanduser().absolute()) if models else "",
         seed=seed,
         faults=tuple(fault or ()),
         speed=parse_speed(speed),

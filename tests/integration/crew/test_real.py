@@ -159,6 +159,7 @@ MIXED = "has a real connection and tb3 is simulated"
         (("up", "--single-process"), "--single-process with real robots"),
         (("up", "--fault", "gps_loss"), "--fault is for a simulated site"),
         (("up", "--map", "B"), "--map is for a simulated site"),
+        (("up", "--models", "."), "--models is for a simulated site"),
         (("up", "--seed", "3"), "--seed is for a simulated site"),
         (("demo",), "a demo moves simulated robots only"),
     ],

@@ -23,13 +23,21 @@ KINDS = {"humanoid": HUMANOID, "quadruped": QUADRUPED}
 class Stage(AdapterStage[UnitreeAdapter]):
     """One apartment, one clock, an adapter for each robot of the shipped crew."""
 
-    def __init__(self, *, map_: str = "far", seed: int = 0, faults: tuple[str, ...] = (), noise: bool = True) -> None:
+    def __init__(
+        self,
+        *,
+        map_: str = "far",
+        seed: int = 0,
+        faults: tuple[str, ...] = (),
+        noise: bool = True,
+        models: str = "",
+    ) -> None:
         super().__init__()
         self.crew: Crew = load_rules("humanoid_quadruped").crew
         ports = {robot.name: free_port() for robot in self.crew.robots}
         links = {name: f"udp:127.0.0.1:{port}" for name, port in ports.items()}
         self.world = Apartment(
-            WorldConfig(scene="apartment", map=map_, seed=seed, faults=faults, noise=noise, links=links)
+            WorldConfig(scene="apartment", map=map_, seed=seed, faults=faults, noise=noise, links=links, models=models)
         )
         area = self.crew.area
         self.adapters = {
@@ -43,6 +51,7 @@ class Stage(AdapterStage[UnitreeAdapter]):
                     origin=(0.0, 0.0, 0.0),
                     obstacles=self.world.site.obstacles,
                     locations={place.name: (place.x, place.y) for place in self.crew.locations},
+                    models=models,
                 ),
                 self.clock,
             )
