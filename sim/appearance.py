@@ -23,6 +23,10 @@ _KINDS = {
 DRAWN_GROUPS = 3
 """MuJoCo's convention: groups from this on hold what only touches, beside the shapes that are seen."""
 
+FINE = 500
+"""Vertices from which on a mesh is drawn coarser: a robot of a million triangles would not reach who draws in time."""
+GRAIN_M = 0.008
+
 
 class Appearance:
     """Reads a model and its data; the caller sees to it that nobody steps them meanwhile."""
@@ -74,15 +78,30 @@ class Appearance:
         model, mesh = self._model, int(self._model.geom_dataid[geom])
         first, count = int(model.mesh_vertadr[mesh]), int(model.mesh_vertnum[mesh])
         face, faces = int(model.mesh_faceadr[mesh]), int(model.mesh_facenum[mesh])
-        vertices = np.ascontiguousarray(model.mesh_vert[first : first + count], dtype="<f4")
-        triangles = np.ascontiguousarray(model.mesh_face[face : face + faces], dtype="<u4")
-        return vertices.tobytes(), triangles.tobytes()
+        vertices, triangles = model.mesh_vert[first : first + count], model.mesh_face[face : face + faces]
+        if count > FINE:
+            vertices, triangles = coarse(vertices, triangles, GRAIN_M)
+        return vertices.astype("<f4").tobytes(), triangles.astype("<u4").tobytes()
 
     def _colour(self, geom: int) -> tuple[float, float, float, float]:
         material = int(self._model.geom_matid[geom])
         rgba = self._model.mat_rgba[material] if material >= 0 else self._model.geom_rgba[geom]
         red, green, blue, alpha = rgba.tolist()
         return red, green, blue, alpha
+
+
+def coarse(vertices: Any, triangles: Any, grain_m: float) -> tuple[Any, Any]:
+    """A mesh of one vertex for each cell of a grid: the first that lies in it; triangles without an area are left out.
+
+    Vertices (n, 3) in metres, triangles (m, 3) of their numbers; both of the same kind again.
+    """
+    cells = np.rint(vertices / grain_m).astype(np.int64)
+    low = cells.min(axis=0)
+    x, y, z = (cells - low).T
+    _, first, number = np.unique((x << 40) | (y << 20) | z, return_index=True, return_inverse=True)
+    a, b, c = number[triangles].T
+    whole = (a != b) & (b != c) & (a != c)
+    return vertices[first], np.unique(np.stack([a, b, c], axis=1)[whole], axis=0)
 
 
 def _half(kind: str, first: float, second: float, third: float) -> tuple[float, float, float]:

@@ -138,8 +138,10 @@ async def crew_with_threads(desk: Desk, *names: str, speed: float = 0.0) -> Asyn
     adapters: dict[str, Adapter] = {}
     make_adapter = robot_process.make_adapter
 
-    def remembered(robot: RobotSpec, rules: Rules, connection: str, clock: Clock, *, enforced: bool = True) -> Adapter:
-        adapters[robot.name] = adapter = make_adapter(robot, rules, connection, clock, enforced=enforced)
+    def remembered(
+        robot: RobotSpec, rules: Rules, connection: str, clock: Clock, *, models: str = "", enforced: bool = True
+    ) -> Adapter:
+        adapters[robot.name] = adapter = make_adapter(robot, rules, connection, clock, models=models, enforced=enforced)
         return adapter
 
     robot_process.make_adapter = remembered
