@@ -3,6 +3,7 @@
 Reads the folder that the user has, and carries nothing of it. Their masses, joints, limits and meshes stay as they are.
 """
 
+import math
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -11,6 +12,8 @@ import mujoco
 import numpy as np
 
 from crew.errors import nearest
+from crew.sim.unitree.gait import LEGS
+from crew.sim.unitree.leg import THIGH_M
 
 SOURCE = "https://github.com/google-deepmind/mujoco_menagerie"
 FILES = {"g1": "unitree_g1/g1.xml", "go2": "unitree_go2/go2.xml"}
@@ -23,6 +26,7 @@ ARM_JOINTS = {**{f"{joint}_joint": joint for joint in WAIST}, **{f"right_{joint}
 HELD = {"left_shoulder_pitch_joint": 0.3, "left_shoulder_roll_joint": 0.15, "left_elbow_joint": 1.3}
 """Every other joint is held: these at an angle, radians, the rest at zero."""
 WRIST, RUBBER_HAND = "right_wrist_yaw_link", "right_rubber_hand"
+LEG_TOLERANCE_M = 0.002
 MOUNT_M = 0.0215
 """The gripper's origin ahead of the wrist's yaw axis: its palm begins at the flange."""
 
@@ -49,6 +53,9 @@ def robot(name: str, folder: str) -> Any:
         spec = mujoco.MjSpec.from_file(str(path))
     except ValueError as error:
         raise ModelsError(f"{path} can't be read: {error}") from error
+    for mesh in spec.meshes:
+        if mesh.file and not (path.parent / spec.meshdir / mesh.file).is_file():
+            raise ModelsError(f"{path}: its mesh {spec.meshdir}/{mesh.file} is not there; fetch the whole folder")
     (_quadruped if name == "go2" else _humanoid)(spec, path)
     for key in list(spec.keys):
         spec.delete(key)
@@ -64,8 +71,24 @@ def agree(child: Any, parent: Any) -> None:
 def _quadruped(spec: Any, path: Path) -> None:
     trunk = _body(spec, "base", path)
     _rename(spec, {f"{motor}_joint": motor for motor in LEG_JOINTS}, path)
+    _measure(spec, path)
     trunk.name, trunk.pos = "trunk", [0.0, 0.0, 0.0]
     _adopt(spec, trunk.add_frame(), "go2", "tray")
+
+
+def _measure(spec: Any, path: Path) -> None:
+    """Whether its legs are those that the gait knows."""
+    for number, leg in enumerate(LEGS):
+        joints = LEG_JOINTS[3 * number : 3 * number + 3]
+        known = ((leg.hip_x_m, leg.hip_y_m, 0.0), (0.0, leg.offset_m, 0.0), (0.0, 0.0, -THIGH_M))
+        for joint, place in zip(joints, known, strict=True):
+            found = spec.joint(joint).parent.pos.tolist()
+            if math.dist(found, place) > LEG_TOLERANCE_M:
+                seen = ", ".join(f"{part:.4f}" for part in found)
+                raise ModelsError(
+                    f"{path}: {joint} lies at ({seen}) m in its parent; the gait knows legs with {place}, within "
+                    f"{LEG_TOLERANCE_M} m"
+                )
 
 
 def _humanoid(spec: Any, path: Path) -> None:

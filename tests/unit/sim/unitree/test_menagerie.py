@@ -128,6 +128,10 @@ def test_the_arm_begins_at_rest(model: Any) -> None:
         ("g1", "right_wrist_yaw_link", "right_hand", r"has no body 'right_wrist_yaw_link'"),
         ("g1", '<position name="waist_yaw_joint" joint="waist_yaw_joint" kp="500" inheritrange="1"/>', "",
          r"joint 'waist_yaw_joint' has 0 actuators, 1 is needed"),
+        ("go2", 'body name="RR_calf" pos="0 0 -0.213"', 'body name="RR_calf" pos="0 0 -0.25"',
+         r"RR_calf lies at \(0.0000, 0.0000, -0.2500\) m in its parent"),
+        ("g1", 'vertex="0 0 0 0.05 0 0 0 0.05 0 0 0 0.05"', 'file="right_rubber_hand.STL"',
+         r"g1.xml: its mesh /right_rubber_hand.STL is not there; fetch the whole folder"),
         ("g1", "<mujoco>", "<urdf>", r"g1.xml can't be read"),
     ],
 )  # fmt: skip
