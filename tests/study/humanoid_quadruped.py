@@ -97,8 +97,10 @@ def _lines(results: Results) -> Iterator[str]:
     yield f"Made by `python -m tests.study.humanoid_quadruped` with version {results.version}: adapters and"
     yield "simulation in lockstep, with noise; the seed moves things and the person. Distances are horizontal, by the"
     yield "simulation's truth, from the cube to the hand that the person holds out. Delivered: within 0.3 m, off the"
-    yield "floor, and for carry felt by the tray's sensor on arrival. This is the adapters alone; both missions in a"
-    yield "full crew, by `crew demo`, and what each mishap leads to there, stand in [mishaps.md](mishaps.md)."
+    felt = "floor, and for carry felt by the tray's sensor on arrival. This is the adapters alone"
+    yield f"{felt}." if results.models else f"{felt}; both missions in a"
+    if not results.models:
+        yield "full crew, by `crew demo`, and what each mishap leads to there, stand in [mishaps.md](mishaps.md)."
     yield ""
     yield "| mission | seeds | delivered | distance: mean, largest | mission: mean, longest |"
     yield "|---|---|---|---|---|"
