@@ -68,10 +68,8 @@ async def _demo(options: LaunchOptions, request: str, as_json: bool) -> int:
     async with live_crew(options, home(), proof_progress) as crew:
         if not as_json:
             _introduce(crew, request, time.monotonic() - began)
-        truths: KeepLatest[Letter[SimTruth]] = KeepLatest(letters(SimTruth))
-        crew.bus.subscribe(crew.keys.sim_truth, truths)
         last = await _follow(crew.bus, crew.keys, request, quiet=as_json)
-        truth = await _last_truth(truths)
+        truth = await _newest_truth(crew.bus, crew.keys)
     result = _result(last, truth, crew, time.monotonic() - began)
     if as_json:
         say_json(result)
@@ -88,9 +86,10 @@ async def _follow(bus: Bus, keys: Keys, request: str, *, quiet: bool) -> Mission
     return await follow_request(bus, keys, request, listen, answer=lambda _: None)
 
 
-async def _last_truth(truths: KeepLatest[Letter[SimTruth]]) -> SimTruth | None:
-    """The newest truth of the simulation, published after the mission's end."""
-    truths.take()
+async def _newest_truth(bus: Bus, keys: Keys) -> SimTruth | None:
+    """The simulation's next truth: nobody listens to it while the mission runs."""
+    truths: KeepLatest[Letter[SimTruth]] = KeepLatest(letters(SimTruth))
+    bus.subscribe(keys.sim_truth, truths)
     await truths.changed()
     found = truths.take()
     return found[-1].message if found else None
