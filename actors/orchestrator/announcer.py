@@ -8,6 +8,7 @@ from crew.bus.port import Bus, Qos
 from crew.clock import Clock
 from crew.contracts.codes import Code
 from crew.contracts.gate.sighting import places
+from crew.contracts.language.reading import noted_lines
 from crew.contracts.mission import event as ev
 from crew.contracts.mission.provenance import sources
 from crew.contracts.mission_state import ENDS, MissionState, Phase, Question, StepPhase
@@ -112,7 +113,8 @@ class Announcer:
             text = f"plan refused: {verdict.refusal.code}: {verdict.refusal.message}{again}"
             self._put(new, "plan", text, code=verdict.refusal.code)
             return
-        self._put(new, "plan", f"plan accepted: {new.contract}", steps=self.steps(new), contract=new.contract)
+        noted = "".join(f"; {line}" for line in noted_lines(new.reading))
+        self._put(new, "plan", f"plan accepted: {new.contract}{noted}", steps=self.steps(new), contract=new.contract)
         if verdict.question is not None:
             question = verdict.question
             self._put(new, "question", question.text, question=question.text, token=question.token)

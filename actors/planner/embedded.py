@@ -13,7 +13,7 @@ from crew.contracts.contract import CallPattern, Condition, Contract, Slot, Slot
 from crew.contracts.language.exclusion import excluded_skills
 from crew.contracts.language.lexicon import lexicon_of
 from crew.contracts.language.licence import fits, licensed_values, resolved
-from crew.contracts.language.mention import ROBOT_KINDS, Mention, MentionKind, Reading
+from crew.contracts.language.mention import ROBOT_KINDS, Direction, Mention, MentionKind, Reading
 from crew.contracts.language.reading import explain_reading, read_request
 from crew.contracts.language.templates import skeleton
 from crew.contracts.plan import ArgValue, Call, Plan, SlotValue, Spot, Zone
@@ -113,7 +113,13 @@ def _placed(mention: Mention, casting: Casting, rules: Rules) -> bool:
         value for robot in casting.roles.values() for s in _skills(robot, rules).values() for value in s.reports
     }
     named = any(v in guards | reported for v in mention.values if isinstance(v, str))
-    return named or any(fits(mention, slot) for slot in contract.slots)
+    return named or any(fits(mention, slot) and _ways_agree(mention, slot) for slot in contract.slots)
+
+
+def _ways_agree(mention: Mention, slot: Slot) -> bool:
+    """Whether a goal is not taken for an origin, nor an origin for a goal."""
+    against = Direction.TO if slot.said_from else Direction.FROM
+    return mention.direction is not against
 
 
 def _likeness(contract: Contract, casting: Casting, reading: Reading) -> float:

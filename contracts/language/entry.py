@@ -30,7 +30,10 @@ class Entry(msgspec.Struct, frozen=True, kw_only=True):
 
 def stands(tokens: list[Token], at: int, words: Words) -> bool:
     """Whether the words stand here, given that the first one does."""
-    return len(words) == 1 or tuple(t.norm for t in tokens[at : at + len(words)]) == words
+    if len(words) == 1:
+        return True
+    second = at + 1 < len(tokens) and tokens[at + 1].norm == words[1]
+    return second and tuple(t.norm for t in tokens[at : at + len(words)]) == words
 
 
 def stands_all(tokens: list[Token], at: int, words: Words) -> bool:

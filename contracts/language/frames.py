@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from crew.contracts.language.templates import expansions
 
 FRAMES: tuple[str, ...] = (
-    "(i would|i'd|we would|we'd) be (|very |most |so |really |much )"
+    "(i would|i'd|we would|we'd|i should|we should) be (|very |most |so |really |much )"
     "(grateful|obliged|thankful|happy|glad|pleased|delighted) (if|if you|if you could|if you would)",
     "(would it be|is it|will it be) (|at all )(possible|all right|alright|ok|okay|fine|too much trouble) "
     "(to|for you to|if|if you|if you could|if you would)",
@@ -27,8 +27,36 @@ FRAMES: tuple[str, ...] = (
     "(may|might|could|can) (i|we) ask (|you )for (a|an|the)",
     "do you (think|suppose|reckon) you (could|can|might|would)",
     "would you (care|be willing|be so kind as|be good enough) to",
+    "if (it's|it is|it isn't|it is not|that's|that isn't|that is not) (too much|any|a|not too much) (trouble|bother|"
+    "hassle)",
+    "(i'd|i would|we'd|we would) (feel|be) (so |so much |much |a lot )(better|happier|easier) if (|you could|"
+    "you would)",
+    "(perhaps|maybe) (you|we|someone) (could|can|might)",
+    "(do|would) you mind",
+    "(|i |we |you )(want|wanna) to",
+    "pretty please",
+    "be able to",
     "(you know what|i tell you what|tell you what|the thing is|long story short|to be honest|if i may)",
-    "(i'm|i am|we're|we are) (going to|definitely going to) (need|want)",
+    "(i'm |i am |we're |we are )(going to|definitely going to|just going to) (need|want)",
+    "(it|that) would be (|so |very |really |most )(great|nice|lovely|wonderful|perfect|fantastic|"
+    "brilliant|"
+    "super|good|kind|helpful|marvellous|splendid|a great help|a big help|a help) (if|if you could|if you would|"
+    "if you can|to)",
+    "(it|that) would (help|please me|make me happy|make my day|mean a lot) (if|if you could|if you would|to)",
+    "(i|we) would (appreciate|love|like|prefer) it (|very much |so much |greatly )(if|if you could|if you would)",
+    "(i'd|we'd) (appreciate|love|like|prefer) it (|very much |so much |greatly )(if|if you could|if you would)",
+    "(from|out of) (the air|above|the sky|high up|up high|up there)",
+    "(by air|aerial|aerially|an aerial)",
+    "(i need|we need|i want|we want) (someone|somebody|one of you) to",
+    "(if|when) you (can|could) (spare|find) (a moment|a minute|the time|a second)",
+    "(|would |could |can )(someone|somebody|anyone|anybody) (please|kindly)",
+    "(your next|the next|your first|your new|today's) (job|task|mission|order) is to",
+    "(it is|it's) (about |high |)time (to|for|you|we|that you)",
+    "(i was|i am|i'm|we were) (hoping|wondering|thinking) (that |if |)(you could|you might|you would|we could|"
+    "someone could)",
+    "do (me|us) (a|the) (favour|favor|kindness) (and|of)",
+    "(it falls to you|it is up to you|it's up to you) to",
+    "(i|we) (need|want|would like) (you|you guys|the team|the crew|your team) to",
 )
 """Said before a request, or between its parts."""
 
@@ -38,6 +66,14 @@ OPENINGS: tuple[str, ...] = (
     "(thirsty|hungry|tired|cold|busy|worried|in a hurry|running late|new here)",
     "(roger|roger that|copy|copy that|affirmative|affirm|wilco|break|break break|radio check|say)",
     "next (up|job|task|order) (|is)",
+    "(request|requesting|i request|we request|i am requesting|we are requesting|i hereby request|asking for|"
+    "we are asking for)",
+    "(as for|regarding|concerning|as regards|with regard to)",
+    "(you there|hey you|you guys|you're up|you are up|over to you|your move|it's your turn)",
+    "(caller|dispatch|police|witness|witnesses|command) (reports|reporting)",
+    "(all stations|all callsigns|all call signs|say again|i say again|i repeat|be advised|for your action)",
+    "(mr|mister|miss|mrs|sir|madam|ma'am|dude|bro|boss|chief|pal|love|honey|sweetie|darling|my dear|young man|team|"
+    "gentlemen|ladies and gentlemen)",
 )
 """Said where a clause begins."""
 
@@ -51,23 +87,39 @@ TAGS: tuple[str, ...] = (
     "(thanks so much|thank you so much|much obliged|much appreciated|thanking you|thank you kindly)",
     "(over|out|over and out|how copy|do you copy|acknowledge|acknowledged|roger|wilco|stand by|standing by)",
     "and stand by",
+    "(urgent|urgently|this is urgent|it's urgent|high priority|top priority|standby|please respond|do you read|"
+    "come in)",
+    "(sir|madam|ma'am|dude|bro|boss|chief|pal|love|honey|sweetie|darling|my dear|mate|buddy|man|guys|folks|my friend)",
+    "(will|can|could|would|won't) ya",
 )
 """Said where a sentence ends, and nothing follows."""
 
 PRESENTED: tuple[str, ...] = (
-    "(we have|we've|we have got|we've got|we got|we are missing|we're missing|we lost|we have lost|we've lost) (a|an)",
+    "(we have|we've|we have got|we've got|we got|we are missing|we're missing|we lost|we have lost|we've lost|"
+    "i have|i've got|there is|there's|they have|they lost|we are looking for|we're looking for) (a|an|one)",
+    "(reports of|report of|reported|a report of|we have reports of|we have a report of) (a|an|one)",
+    "(caller|witness|witnesses|police|a caller|somebody|someone) (reports|report|reported) (a|an|one)",
 )
 """Said in front of the person who is to be found."""
 
 WHEREABOUTS: tuple[str, ...] = (
-    "(|was |were )last (seen|spotted|heard from|heard of)",
-    "(is|must be|should be|is probably|might be) somewhere",
+    "(|is |was |were |has been )last (seen|spotted|sighted|located|heard from|heard of|contact|position|"
+    "known position|sighting)",
+    "(|is |was |has been )(seen|spotted|sighted|reported|reported missing|reported lost|reported overdue|overdue|"
+    "believed lost)",
+    "(|is |was |went |has gone |gone |got |has got )(missing|lost|stranded|trapped)",
+    "(is|must be|should be|is probably|might be|may be|could be|is likely|is believed to be|"
+    "is thought to be) somewhere",
+    "(is|must be|should be|is probably|might be|may be|could be|is likely to be|is believed to be|is thought to be)",
+    "(|most )(probably|possibly|likely|presumably|apparently|reportedly|supposedly)",
 )
 """Said behind that person."""
 
 BEFORE_A_MARK = frozenset(("copy", "say", "break", "roger", "affirm"))
 """Openings that are verbs without a mark behind them."""
-AFTER_A_MARK = frozenset(("over", "out", "right", "clear", "roger", "yes", "eh", "huh"))
+AFTER_A_MARK = frozenset(
+    ("over", "out", "right", "clear", "roger", "yes", "eh", "huh", "man", "chief", "pal", "love", "mate")
+)
 """Tags that would belong to what stands in front of them, were there no mark between."""
 
 

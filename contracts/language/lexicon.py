@@ -11,7 +11,10 @@ from crew.contracts.language.entry import Entry, Words, stands, words_of
 from crew.contracts.language.inflect import Form, inflections
 from crew.contracts.language.mention import MentionKind, StepRef
 from crew.contracts.language.naming import entities
+from crew.contracts.language.rewrites import wording_words
 from crew.contracts.language.spelling import Vocabulary
+from crew.contracts.language.stories import told_words
+from crew.contracts.language.synonyms import also
 from crew.contracts.language.templates import fixed_phrases, opening_phrases
 from crew.contracts.language.tokens import Token
 from crew.contracts.language.words import FUNCTION_WORDS, REQUESTER, ROLE_ORDER, SILENT, SINGLE_WORDS, TURNING, Role
@@ -48,6 +51,9 @@ class Lexicon(msgspec.Struct, frozen=True, kw_only=True, dict=True):
     ending: tuple[StepRef, ...]
     """All steps of the contracts that end what the robots are doing."""
 
+    def __repr__(self) -> str:
+        return f"<lexicon of {', '.join(self.robots)}: {len(self.names)} first words>"
+
     @cached_property
     def preempting(self) -> frozenset[str]:
         return frozenset(ref.contract for ref in self.ending)
@@ -58,7 +64,7 @@ class Lexicon(msgspec.Struct, frozen=True, kw_only=True, dict=True):
         entries = [entry for table in tables for found in table.values() for entry in found]
         single = {e.words[0]: e for e in entries if len(e.words) == 1 and e.role is not Role.MENTION}
         return Vocabulary(
-            known=frozenset(word for e in entries for word in e.words) | SINGLE_WORDS,
+            known=frozenset(word for e in entries for word in e.words) | SINGLE_WORDS | wording_words() | told_words(),
             names=frozenset(word for found in self.names.values() for e in found for word in e.words),
             silent=frozenset(word for word, e in single.items() if e.role in SILENT),
             turning=frozenset(word for word, e in single.items() if e.role in TURNING),
@@ -83,7 +89,8 @@ def match(table: Mapping[str, tuple[Entry, ...]], tokens: list[Token], at: int) 
 
 def build_lexicon(rules: Rules) -> Lexicon:
     """Collect the crew's words. Costs milliseconds; see `lexicon_of` for a cached one."""
-    entries = [*entities(rules), *_actions(rules)]
+    named = list(entities(rules))
+    entries = [*named, *_actions(rules, named)]
     plain = {role: phrases for role, phrases in FUNCTION_WORDS.items() if role not in ROLE_ORDER}
     special = {role: FUNCTION_WORDS[role] for role in ROLE_ORDER}
     return Lexicon(
@@ -119,10 +126,16 @@ def lexicon_of(rules: Rules) -> Lexicon:
     return cached
 
 
-def _actions(rules: Rules) -> Iterator[Entry]:
+def _actions(rules: Rules, named: list[Entry]) -> Iterator[Entry]:
     meanings: dict[Words, dict[StepRef, None]] = {}
     for phrase, ref in _word_meanings(rules):
         meanings.setdefault(words_of(phrase), {}).setdefault(ref)
+    plainly = {" ".join(words): refs for words, refs in meanings.items()}
+    for phrase, refs, verb in list(also(plainly, {" ".join(e.words) for e in named})):
+        if verb:
+            meanings[words_of(phrase)] = refs
+        else:
+            yield _action(words_of(phrase), tuple(refs), Form.BASE)
     for words, refs in meanings.items():
         for form, spelled in inflections(words):
             yield _action(spelled, tuple(refs), form)

@@ -95,6 +95,13 @@ class Reading(msgspec.Struct, frozen=True, kw_only=True):
     ambiguous: tuple[Ambiguity, ...] = ()
     orders: tuple[tuple[int, int], ...] = ()
     """Pairs of actions, by index in `mentions`: the first was asked to come before the second."""
+    passed_over: tuple[Unread, ...] | msgspec.UnsetType = msgspec.UNSET
+    """As `noted`; not written down where there is nothing to note, so that older journals still verify."""
+
+    @property
+    def noted(self) -> tuple[Unread, ...]:
+        """What was left out as no part of the request, or read as the word that it is a slip of, without asking."""
+        return () if isinstance(self.passed_over, msgspec.UnsetType) else self.passed_over
 
     @property
     def wanted(self) -> tuple[Mention, ...]:

@@ -7,7 +7,8 @@ from msgspec.structs import replace
 from crew.contracts.language.entry import Entry, Words, words_of
 from crew.contracts.language.inflect import plurals
 from crew.contracts.language.mention import MentionKind
-from crew.contracts.language.words import IN_NEED, REQUESTER, ROBOT_WORDS, SELF_WORDS, ZONE_NOUNS
+from crew.contracts.language.stories import PERSON_NOUNS, PERSON_PLURALS
+from crew.contracts.language.words import IN_NEED, NICKNAMES, REQUESTER, ROBOT_WORDS, SELF_WORDS, ZONE_NOUNS
 from crew.contracts.plan import SlotValue, Zone
 from crew.contracts.site import Rules
 
@@ -25,11 +26,13 @@ def entities(rules: Rules) -> Iterator[Entry]:
     for thing in crew.objects:
         yield from _named(MentionKind.OBJECT, thing.name, thing.name, thing.aliases)
     for value in crew.values:
-        extra = SELF_WORDS if value.name == REQUESTER else ()
+        extra = SELF_WORDS if value.name == REQUESTER else PERSON_NOUNS if "person" in value.aliases else ()
         near = value.standoff_m > 0
         entries = list(_named(MentionKind.VALUE, value.name, value.name, (*value.aliases, *extra), near))
         yield from entries
         yield from (replace(e, words=many, plural=True) for e in entries for many in plurals(e.words))
+        if extra is PERSON_NOUNS:
+            yield from (replace(entries[0], words=(many,), plural=True) for many in PERSON_PLURALS)
     for zone in crew.zones:
         yield from _zone_noun_variants(zone.name, zone.zone, (zone.name, *zone.aliases))
 
@@ -38,6 +41,8 @@ def _variants(phrase: str) -> Iterator[Words]:
     """A name's spellings: as written, and with letters and digits apart (`tb3`, `tb 3`)."""
     words = words_of(phrase)
     yield words
+    if "_" in phrase and len(words) > 1:
+        yield ("".join(words),)  # "rooma"
     apart = tuple(part for word in words for part in _split_digits(word))
     if apart != words:
         yield apart
@@ -77,9 +82,11 @@ def _robots(rules: Rules) -> Iterator[Entry]:
     for kind in rules.kinds.values():
         members = tuple(r.name for r in crew.robots if r.kind == kind.name)
         if members:
-            yield from _class_words((kind.name, *kind.aliases), members)
+            called = (kind.name, *kind.aliases)
+            nicknames = (n for name in called for n in NICKNAMES.get(name, ()))
+            yield from _class_words((*called, *nicknames), members)
     if crew.robots:
-        yield from _class_words(ROBOT_WORDS, tuple(r.name for r in crew.robots))
+        yield from _class_words((*ROBOT_WORDS, *NICKNAMES["robot"]), tuple(r.name for r in crew.robots))
 
 
 def _class_words(phrases: Iterable[str], members: tuple[str, ...]) -> Iterator[Entry]:

@@ -7,7 +7,7 @@ from crew.contracts.language.lexicon import Lexicon
 from crew.contracts.language.mention import Direction, MentionKind
 from crew.contracts.language.piece import PLACE_ROLES, PREPOSITIONS, Piece, before, behind
 from crew.contracts.language.tokens import Token
-from crew.contracts.language.words import PLACE_NOUNS, ZONE_NOUNS, Role
+from crew.contracts.language.words import AFFECTIVE, PLACE_NOUNS, ZONE_NOUNS, Role
 from crew.contracts.plan import Zone
 
 _OPENS = PREPOSITIONS | {Role.DETERMINER, Role.QUANTIFIER}
@@ -104,6 +104,13 @@ def _join_run(out: list[Piece], run: list[Piece], head: Piece | None) -> int:
         opens = False
     if not run:
         return 0
+    if previous is not None and _bare_direction(previous) and run[0].first == previous.after:
+        previous.become_unknown(previous.first, run[-1].after)  # "the west gate" is no half
+        return 0
+    if head is not None and (head.is_robot or head.kind is MentionKind.VALUE) and all(w.norm in AFFECTIVE for w in run):
+        head.first = run[0].first
+        out.append(head)
+        return 1
     joins = head is not None and head.is_entity and not head.is_robot and not run[-1].possessive
     if head is not None and joins:
         if all(w.norm in head.modifiers for w in run) or _zone_noun(run, head):
@@ -122,6 +129,10 @@ def _join_run(out: list[Piece], run: list[Piece], head: Piece | None) -> int:
     else:
         out.extend(run)
     return 0
+
+
+def _bare_direction(piece: Piece) -> bool:
+    return piece.kind is MentionKind.ZONE and piece.after - piece.first == 1
 
 
 def _zone_noun(run: list[Piece], head: Piece) -> bool:
@@ -179,6 +190,10 @@ def _neighbours(pieces: list[Piece]) -> None:
             left.become(Role.FILLER)
 
 
+def _is_place(piece: Piece) -> bool:
+    return piece.kind in (MentionKind.LOCATION, MentionKind.ZONE)
+
+
 def _nested(inner: Piece, outer: Piece) -> bool:
     if inner.is_robot and outer.is_robot:
         return set(inner.values) <= set(outer.values)
@@ -197,6 +212,16 @@ def _after_verb_and_article(pieces: list[Piece]) -> None:
         described = piece.form is Form.PAST and at + 3 < len(pieces) and pieces[at + 3].kind is MentionKind.VALUE
         if place.role in PLACE_ROLES and owner.role is Role.DETERMINER and piece.is_action and not described:
             piece.become_unknown(piece.first, piece.after)
+    for at, (piece, head) in reversed(list(enumerate(pairwise(pieces)))):
+        placed = at and pieces[at - 1].role in (Role.DETERMINER, *PLACE_ROLES)
+        if (
+            placed
+            and piece.form is Form.ING
+            and (piece.is_action or piece.kind is MentionKind.UNKNOWN)
+            and _is_place(head)
+        ):
+            piece.become_unknown(piece.first, head.after)  # "the loading dock"
+            pieces.pop(at + 1)
     for at, (owner, piece) in enumerate(pairwise(pieces)):
         mine = owner.norm in ("my", "our") or (owner.norm == "your" and before(pieces, at) is None)
         if owner.role is Role.DETERMINER and mine and piece.is_action:

@@ -3,14 +3,19 @@
 from collections.abc import Iterator
 from itertools import pairwise
 
+from msgspec.structs import replace
+
 from crew.contracts.language.beneficiary import beneficiaries
-from crew.contracts.language.implied import implied_verbs
+from crew.contracts.language.clauses import pare
+from crew.contracts.language.implied import fetched, implied_verbs
 from crew.contracts.language.lexicon import Lexicon
 from crew.contracts.language.mention import Ambiguity, Direction, Mention, MentionKind, Reading, Unread
+from crew.contracts.language.people import people
 from crew.contracts.language.phrase import directions, hosts, loose_ends, noun_phrases
 from crew.contracts.language.piece import SOFT, Piece, before, behind
 from crew.contracts.language.reference import governors, orders, participles, place_pronouns, pronouns
 from crew.contracts.language.respell import respell
+from crew.contracts.language.rewrite import rewritten
 from crew.contracts.language.scan import Scanner
 from crew.contracts.language.scope import contradictions, polarities
 from crew.contracts.language.tokens import Token, tokenize
@@ -28,7 +33,8 @@ def read_request(text: str, lexicon: Lexicon) -> Reading:
     if len(tokens) > MAX_TOKENS:
         why = f"{len(tokens)} words and marks; at most {MAX_TOKENS} are read"
         return _too_long(text, tokens[MAX_TOKENS].start, why)
-    tokens, slips, turns = respell(text, tokens, lexicon)
+    tokens, slips, turns, sure = respell(text, tokens, lexicon)
+    tokens, left_out, told = pare(text, rewritten(tokens, lexicon), lexicon)
     pieces = noun_phrases(Scanner(tokens, lexicon).scan())
     unsaid = implied_verbs(pieces, text, tokens, lexicon)
     beneficiaries(pieces, tokens, lexicon)
@@ -39,14 +45,31 @@ def read_request(text: str, lexicon: Lexicon) -> Reading:
     participles(pieces)
     place_pronouns(pieces)
     hosts(pieces, lexicon)
+    fetched(pieces, lexicon)
     directions(pieces, tokens)
     doubts = turns + polarities(pieces, tokens)
     if any(p.role is Role.PRONOUN for p in pieces):
         doubts += pronouns(pieces, tokens, lexicon)
         directions(pieces, tokens)
+    doubts += people(pieces, tokens, lexicon)
     doubts += contradictions(pieces, tokens)
     governors(pieces)
-    return _assemble(text, tokens, pieces, doubts, [*slips, *unsaid])
+    told += _whose(text, tokens, pieces, lexicon)
+    reading = _assemble(text, tokens, pieces, doubts, [*slips, *unsaid, *told], lexicon)
+    noted = tuple(sorted((*sure, *left_out), key=lambda n: n.span))
+    return replace(reading, passed_over=noted) if noted else reading
+
+
+def _whose(text: str, tokens: list[Token], pieces: list[Piece], lexicon: Lexicon) -> list[Unread]:
+    """`return to base`, said to nobody: one robot would end what it does, another would go there. Asked back."""
+    asked = []
+    for piece in (p for p in pieces if p.is_action and p.positive):
+        ends = {ref.skill for ref in piece.means if ref.contract in lexicon.preempting}
+        others = {ref.skill for ref in piece.means if ref.contract not in lexicon.preempting}
+        if ends and others - ends and not any(p.is_robot for p in pieces):
+            span = _span(tokens, piece)
+            asked.append(Unread(text[slice(*span)], span, "go"))
+    return asked
 
 
 def _too_long(text: str, end: int, why: str) -> Reading:
@@ -91,11 +114,12 @@ def _first(pieces: list[Piece]) -> None:
     for piece in pieces:
         acted = acted or piece.is_action
         if piece.role is Role.FIRST and acted:
-            piece.become(Role.UNREAD)
+            then = any(p.role is Role.THEN for p in pieces[pieces.index(piece) :])
+            piece.become(Role.FILLER if then else Role.UNREAD)
 
 
 def _assemble(
-    text: str, tokens: list[Token], pieces: list[Piece], doubts: list[Ambiguity], asked: list[Unread]
+    text: str, tokens: list[Token], pieces: list[Piece], doubts: list[Ambiguity], asked: list[Unread], lexicon: Lexicon
 ) -> Reading:
     named = [p for p in pieces if p.kind is not None]
     index = {id(p): k for k, p in enumerate(named)}
@@ -103,7 +127,7 @@ def _assemble(
     return Reading(
         text=text,
         mentions=tuple(_mention(text, tokens, p, index) for p in named),
-        unread=tuple(_asked(text, tokens, pieces, asked)),
+        unread=tuple(_asked(text, tokens, pieces, asked, lexicon)),
         ambiguous=tuple(sorted(doubts, key=lambda d: d.span)),
         orders=tuple(dict.fromkeys(pairs)),
     )
@@ -128,16 +152,22 @@ def _mention(text: str, tokens: list[Token], piece: Piece, index: dict[int, int]
     )
 
 
-def _asked(text: str, tokens: list[Token], pieces: list[Piece], asked: list[Unread]) -> list[Unread]:
+def _asked(text: str, tokens: list[Token], pieces: list[Piece], asked: list[Unread], lexicon: Lexicon) -> list[Unread]:
     """What was not read, and what was read otherwise than it stands, in the order of the text."""
-    unread = [u for u in _unread(text, tokens, pieces) if u.span not in {a.span for a in asked}]
+    unread = [u for u in _unread(text, tokens, pieces, lexicon) if u.span not in {a.span for a in asked}]
     return sorted([*unread, *asked], key=lambda u: u.span)
 
 
-def _unread(text: str, tokens: list[Token], pieces: list[Piece]) -> Iterator[Unread]:
+def _sought(piece: Piece, lexicon: Lexicon) -> bool:
+    """`look for survivors`: a search reports one, and says if there are more."""
+    verb = piece.governor
+    return verb is not None and all((r.contract, r.step) in lexicon.zone_steps for r in verb.means)
+
+
+def _unread(text: str, tokens: list[Token], pieces: list[Piece], lexicon: Lexicon) -> Iterator[Unread]:
     for piece in pieces:
         excluded_unknown = piece.kind is MentionKind.UNKNOWN and not piece.positive
-        several = piece.kind is MentionKind.VALUE and piece.every
+        several = piece.kind is MentionKind.VALUE and piece.every and not _sought(piece, lexicon)
         if piece.role in (Role.UNREAD, Role.WORD) or excluded_unknown or several:
             span = _span(tokens, piece)
             yield Unread(text[slice(*span)], span)
@@ -157,7 +187,15 @@ def explain_reading(reading: Reading) -> str:
         parts.append("unclear: " + ", ".join(a.why for a in reading.ambiguous))
     if reading.unread:
         parts.append("not understood: " + ", ".join(map(str, reading.unread)))
-    return "; ".join(parts) or "nothing was asked for"
+    return "; ".join((*parts, *noted_lines(reading))) or "nothing was asked for"
+
+
+def noted_lines(reading: Reading) -> Iterator[str]:
+    """What was read otherwise than it stands, and what was left out, without asking."""
+    yield from (f"'{n.word}' read as '{n.meant}'" for n in reading.noted if n.meant)
+    left_out = [str(n) for n in reading.noted if not n.meant]
+    if left_out:
+        yield "left out as no part of the request: " + ", ".join(left_out)
 
 
 def _clauses(reading: Reading) -> Iterator[str]:
@@ -181,4 +219,4 @@ def _shown(mention: Mention) -> str:
     return prefix + mention.name
 
 
-__all__ = ["MAX_CHARACTERS", "Reading", "explain_reading", "read_request"]
+__all__ = ["MAX_CHARACTERS", "Reading", "explain_reading", "noted_lines", "read_request"]

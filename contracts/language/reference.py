@@ -13,7 +13,7 @@ from crew.contracts.language.words import PLACE_NOUNS, Role
 _PLACES = (MentionKind.VALUE, MentionKind.LOCATION, MentionKind.POINT)
 _ROBOTS = (MentionKind.ROBOT, MentionKind.ROBOT_CLASS)
 _PEOPLE = frozenset(("him", "her", "his"))
-_WISHES = ("want", "need", "like")
+_WISHES = ("want", "need", "like", "have")
 _ORDERING = frozenset((Role.THEN, Role.AFTER, Role.FIRST))
 _PASSED = SOFT | {Role.BE, Role.TO}
 
@@ -46,6 +46,10 @@ def _resolve(pieces: list[Piece], at: int, lexicon: Lexicon) -> str | None:
         if len({p.name for p in found}) > 1:
             return "could refer to " + " or ".join(dict.fromkeys(p.name for p in found))
         pronoun.resolve(found[-1])
+        return None
+    ahead = [p for p in pieces[at + 1 :] if p.kind is MentionKind.VALUE]
+    if pronoun.norm in _PEOPLE and len({p.name for p in ahead}) == 1 and ahead[0].positive:
+        pronoun.resolve(ahead[0])  # "find him, the hiker"
         return None
     return "refers to nothing that the request names"
 
@@ -122,6 +126,8 @@ def _found(pieces: list[Piece], at: int) -> bool:
     """`the found person`."""
     owner = pieces[at - 1] if at else None
     named = pieces[at + 1] if at + 1 < len(pieces) else None
+    if owner is not None and owner.kind is MentionKind.VALUE and pieces[at].norm in ("found", "located"):
+        return named is None or named.role is Role.PUNCTUATION  # "send the rover to the person found"
     determined = owner is not None and owner.role is Role.DETERMINER
     return determined and named is not None and named.kind is MentionKind.VALUE
 
@@ -149,6 +155,11 @@ def _wanted_done(pieces: list[Piece], at: int) -> bool:
     ):
         verb.become(Role.FILLER)  # "have the cube brought to me"
         return True
+    if verb is not None and verb.role is Role.BE and verb.norm == "have":
+        subject = before(pieces, pieces.index(verb), frozenset((Role.DETERMINER,)))
+        if subject is None or (subject.role is Role.FILLER and subject.norm not in ("i", "we", "they")):
+            verb.become(Role.FILLER)  # "would it be possible to have the area searched"
+            return True
     return verb is not None and (verb.role is Role.FILLER or verb.is_action) and verb.norm.endswith(_WISHES)
 
 

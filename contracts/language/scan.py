@@ -13,6 +13,7 @@ from crew.contracts.language.piece import Piece, of_entry
 from crew.contracts.language.tokens import Shape, Token
 from crew.contracts.language.words import (
     ADVERBS,
+    AFFECTIVE,
     BEFALLEN,
     IN_NEED,
     LEFT_ALONE,
@@ -92,7 +93,7 @@ class Scanner(Asides):
         if entry is None and not sending:
             return None
         start = at + (1 if entry is None else len(entry.words))
-        robot_at = self._past(start, tuple(ARTICLES))
+        robot_at = self._past(self._past(start, tuple(ARTICLES)), tuple(AFFECTIVE))
         robot = self._name(robot_at)
         called = robot is not None and robot.kind in ROBOT_KINDS
         end = robot_at + len(robot.words) if robot is not None and called else robot_at
@@ -102,14 +103,14 @@ class Scanner(Asides):
             return None
         verb = self._past(self._past(end, ("out", "up", "off", "over")), ("to",))
         marked = verb > end and self.tokens[verb - 1].norm == "to"
-        action = self._action(self._past(verb, ("go", "and", "then")) if marked else verb)
+        action = (self._action(self._past(verb, ("go", "and", "then"))) if marked else None) or self._action(verb)
         if action is None and not sending and self._light(verb) is not None:
             self.taken.update(range(end, verb))
             return Piece(at, start, Role.FILLER)  # "have the drone take a look"
         if action is None or (sending and not marked) or self._name_is_place(verb) or action.words[0] in PLACE_NOUNS:
             return None
         self.taken.update(range(end, verb))
-        return Piece(at, start, Role.FILLER)
+        return Piece(at, start, Role.FILLER, norm=self.tokens[at].norm)
 
     def _separable(self, at: int) -> Piece | None:
         """`bring the drone down`, `where the victim is`."""
@@ -247,6 +248,8 @@ class Scanner(Asides):
             away = self._past(self._past(need + 1, ("out",)), ("there",))
             return _value(at, away, known.pop()) if len(known) == 1 else Piece(at, need + 1, Role.UNREAD)
         last = next((p for p in reversed(self.pieces) if p.role not in (Role.FOR, Role.FILLER)), None)
+        if last is not None and last.kind is MentionKind.ZONE and self.pieces[-1].role is Role.FOR:
+            last = next((p for p in reversed(self.pieces) if p.is_action), None)  # "search the area for anyone"
         value = self._reported(last.means) if last is not None and last.is_action else None
         return Piece(at, end, Role.UNREAD) if value is None else _value(at, end, value)
 

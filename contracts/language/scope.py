@@ -9,6 +9,8 @@ from crew.contracts.plan import Zone
 _NEGATIONS = frozenset((Role.NOT, Role.NO, Role.EXCEPT, Role.AVOID))
 _ENDS = frozenset((Role.PUNCTUATION, Role.BREAK, Role.THEN))
 _PASSED = SOFT | {Role.BE, Role.CAUSE}
+_WISHES = frozenset(("want", "need", "like", "have"))
+_NEEDS = frozenset(("want", "need", "wants", "needs"))
 _WHY = {
     Role.CONDITION: "a condition",
     Role.ALTERNATIVE: "a choice between alternatives",
@@ -41,6 +43,8 @@ def contradictions(pieces: list[Piece], tokens: list[Token]) -> list[Ambiguity]:
 def _negate(pieces: list[Piece], at: int, tokens: list[Token], doubts: list[Ambiguity]) -> int:
     """Read one negation; return where the reader goes on."""
     negation = pieces[at]
+    if negation.role is Role.NO and at and pieces[at - 1].is_action and pieces[at - 1].norm in _NEEDS:
+        doubts.append(_doubt("nothing may be needed", negation, tokens))  # "room_a needs no bottle"
     if negation.role is Role.NO and (at + 1 == len(pieces) or pieces[at + 1].role in (Role.PUNCTUATION, Role.FILLER)):
         doubts.append(_doubt("the request contains a correction of itself", negation, tokens))
         return at + 1
@@ -51,6 +55,9 @@ def _negate(pieces: list[Piece], at: int, tokens: list[Token], doubts: list[Ambi
     scope = [*_subject(pieces, at), *(p for p in inside if p.kind is not None)]
     if not scope:
         doubts.append(_doubt(f"nothing follows '{negation.norm}' that it could exclude", negation, tokens))
+    wished = any(p.is_action and p.norm in _WISHES for p in inside)
+    if wished and any(p.role is Role.PRONOUN for p in inside):
+        doubts.append(_doubt("what was asked for may be unwanted", negation, tokens))  # "..., I don't want that"
     if any(p.role in _NEGATIONS for p in inside):
         doubts.append(_doubt("the request negates twice", negation, tokens))
     if _goes_on(inside):

@@ -36,9 +36,25 @@ def recognised(word: str, known: Iterable[str], shortest: int = SHORTEST) -> str
     return found.pop() if len(found) == 1 else None
 
 
+def swapped_short(word: str, known: Iterable[str]) -> str | None:
+    """The one known word of three letters that was meant, two of which were swapped."""
+    found = {other for other in known if len(word) == 3 and word != other and _swapped(word, other)}
+    return found.pop() if len(found) == 1 else None
+
+
 def near_any(word: str, words: Collection[str]) -> str | None:
     """A word of the collection that this one could be a slip of."""
     return next((w for w in sorted(words) if len(word) > 1 and slips(word, w)), None)
+
+
+def within_one(word: str, other: str) -> bool:
+    """Whether one letter more, less, other or swapped makes one word of the other."""
+    if abs(len(word) - len(other)) > 1:
+        return False
+    if len(word) == len(other):
+        return sum(a != b for a, b in zip(word, other, strict=True)) < 2 or _swapped(word, other)
+    short, long = sorted((word, other), key=len)
+    return any(long[:k] + long[k + 1 :] == short for k in range(len(long)))
 
 
 def _swapped(word: str, meant: str) -> bool:

@@ -155,8 +155,15 @@ FUNCTION_WORDS: dict[Role, tuple[str, ...]] = {
     ),
     Role.EVERYTHING: ("everything", "everyone", "everybody", "all of them"),
     Role.LIGHT: (
-        "start", "begin", "perform", "conduct", "execute", "do", "make", "have", "take", "run", "go", "come", "try",
-        "proceed", "carry out", "go on", "go out", "go ahead", "give", "start by", "begin by", "continue",
+        "start", "begin", "perform", "conduct", "execute", "do", "make", "makes", "does", "starts", "begins",
+        "performs",
+        "conducts", "making", "doing", "performing", "conducting", "starting", "takes", "has", "runs", "go up",
+        "fly up",
+        "head out", "set off", "get going", "kick off", "carry on", "continue with", "proceed with", "get on with",
+        "get started", "embark on", "go over there", "go round", "fly out", "have", "take", "run", "go",
+        "come", "try",
+        "proceed", "carry out", "commence", "initiate", "undertake", "organise", "organize", "arrange", "go on",
+        "go out", "go ahead", "give", "start by", "begin by", "continue",
     ),
     Role.FIRST: ("first", "firstly", "first of all", "to begin with", "to start with"),
 }  # fmt: skip
@@ -180,11 +187,11 @@ ROBOT_WORDS: tuple[str, ...] = ("robot", "vehicle", "machine", "unit")
 """Class words that every crew has: any of its robots."""
 
 
-def _set(text: str) -> frozenset[str]:
+def word_set(text: str) -> frozenset[str]:
     return frozenset(text.split())
 
 
-ADVERBS: frozenset[str] = _set(
+ADVERBS: frozenset[str] = word_set(
     "twice thrice again once more often always forever fast slow quick soon tomorrow today tonight "
     "yesterday x y maybe perhaps already still almost least most very really exactly about roughly up down "
     "out off away back"
@@ -202,17 +209,27 @@ LEFT_ALONE: tuple[tuple[str, ...], ...] = tuple(
     )
 )  # fmt: skip
 """What follows a name in `leave the cube where it is`, `keep the rover still`: the thing is to be left out."""
-IN_NEED: frozenset[str] = _set("hurt injured lost missing wounded stranded trapped there")
+AFFECTIVE: frozenset[str] = word_set(
+    "nice little good dear lovely poor clever trusty brave sweet cute friendly old dearest"
+)
+"""Adjectives that tell how somebody feels about a robot or a person, and pick none out."""
+QUALITIES: frozenset[str] = word_set("quick good full thorough proper careful complete detailed close systematic")
+"""Adjectives of a search that no skill here can heed, and that none would refuse."""
+NICKNAMES: dict[str, tuple[str, ...]] = {
+    "dog": ("doggy", "doggie", "doggo"), "robot": ("bot",), "drone": ("uav",), "rover": ("buggy",),
+}  # fmt: skip
+"""What people call a class of robots beside its aliases."""
+IN_NEED: frozenset[str] = word_set("hurt injured lost missing wounded stranded trapped overdue there")
 """What `whoever is ...` may say of the person that is to be found."""
 BEFALLEN: tuple[tuple[str, ...], ...] = tuple(
     tuple(said.split())
     for said in ("is", "has got", "got", "has gone", "has been", "has gotten", "went", "is out there")
 )
 """What stands between `someone` and that need."""
-NOTHING_SAID: frozenset[str] = _set("anywhere anything whatsoever else ever")
+NOTHING_SAID: frozenset[str] = word_set("anywhere anything whatsoever else ever")
 """Words that add nothing inside a negation."""
 
-PLACE_NOUNS: frozenset[str] = _set(
+PLACE_NOUNS: frozenset[str] = word_set(
     "position positions location coordinates coordinate point spot place whereabouts waypoint goal"
 )
 """Nouns that stand for the place of what follows or precedes them."""
@@ -226,11 +243,11 @@ IRREGULAR: dict[str, tuple[str, ...]] = {
 }  # fmt: skip
 """Past forms that the regular rule does not make."""
 
-PARTICLES: frozenset[str] = _set("up down off back over out")
+PARTICLES: frozenset[str] = word_set("up down off back over out")
 """Second parts of a verb that may stand behind its object ("bring the drone down")."""
 
-METRES: frozenset[str] = _set("m metre metres meter meters")
-OTHER_UNITS: frozenset[str] = _set(
+METRES: frozenset[str] = word_set("m metre metres meter meters")
+OTHER_UNITS: frozenset[str] = word_set(
     "ft feet foot km kilometre kilometres kilometer kilometers cm mm centimetre centimetres centimeter "
     "centimeters yd yard yards mile miles mi inch inches deg degree degrees rad s sec second seconds "
     "min minute minutes h hour hours percent times hundred thousand million dozen half quarter k am pm "
@@ -249,5 +266,5 @@ TENS_WORDS: dict[str, int] = {
 
 SINGLE_WORDS: frozenset[str] = frozenset(
     (*ADVERBS, *ZONE_NOUNS, *IN_NEED, *NOTHING_SAID, *PLACE_NOUNS, *METRES, *OTHER_UNITS, *DIGIT_WORDS, *TENS_WORDS)
-) | _set("he she who what where which why how that was were been did does seen altitude height axis axes x y")
+) | word_set("he she who what where which why how that was were been did does seen altitude height axis axes x y")
 """Words that other parts of the reader know: none of them is a slip of another."""

@@ -9,6 +9,7 @@ from crew.contracts.gate.approval import approved, wants_approval
 from crew.contracts.gate.arguments import check_call
 from crew.contracts.gate.state import check_unheard
 from crew.contracts.gate.value import check_values
+from crew.contracts.language.reading import noted_lines
 from crew.contracts.matching import match
 from crew.contracts.mission.effect import assumed_world, predict
 from crew.contracts.mission_state import MissionState, Phase, Purpose, Question, StepPhase, StepRecord
@@ -102,6 +103,7 @@ def _question(mission: MissionState, plan: Plan, instance: Instance) -> Question
     lost = ", ".join(repr(u.word) for u in mission.reading.unread if not u.meant)
     read = "".join(f"I read {u.word!r} as '{u.meant}'. " for u in mission.reading.unread if u.meant)
     left = f"I did not understand {lost} and would leave it out. " if lost else ""
-    text = f"{read}{left}I would do: {calls}."
+    noted = "".join(f"{line[0].upper()}{line[1:]}. " for line in noted_lines(mission.reading))
+    text = f"{read}{left}{noted}I would do: {calls}."
     token = digest((mission.id, mission.reading, plan))[:16]
     return Question(text=f"{text} Shall I?", token=token, unread=unread)

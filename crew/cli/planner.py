@@ -18,7 +18,7 @@ from crew.contracts.gate.authorize import Gate
 from crew.contracts.language.containment import check_reading
 from crew.contracts.language.lexicon import build_lexicon
 from crew.contracts.language.mention import Mention, Reading
-from crew.contracts.language.reading import read_request
+from crew.contracts.language.reading import noted_lines, read_request
 from crew.contracts.mission.provenance import sources
 from crew.contracts.mission.validation import Validation, validate
 from crew.contracts.mission_state import MissionState
@@ -41,6 +41,7 @@ class TryResult(msgspec.Struct, frozen=True, kw_only=True):
     reason: str
     mentions: list[Mapping[str, Any]]
     unread: list[str]
+    noted: list[str]
     verdict: Mapping[str, Any]
 
 
@@ -186,6 +187,7 @@ def _result(plan: Plan | None, reason: str, reading: Reading, verdict: Validatio
         reason=reason,
         mentions=[_mention(m) for m in reading.mentions],
         unread=[u.word for u in reading.unread],
+        noted=list(noted_lines(reading)),
         verdict=_verdict(verdict, reason, reading),
     )
 
@@ -232,7 +234,9 @@ def _say(plan: Plan | None, reason: str, reading: Reading, verdict: Validation |
         direction = f" ({mention.direction})" if mention.direction != "none" else ""
         say(f"  {mention.text!r:28} {sign}{mention.kind}: {mention.name}{direction}")
     for unread in reading.unread:
-        say(f"  {unread.word!r:28} not understood")
+        say(f"  {unread.word!r:28} " + (f"asked back: read as {unread.meant!r}" if unread.meant else "not understood"))
+    for noted in reading.noted:
+        say(f"  {noted.word!r:28} " + (f"read as {noted.meant!r}" if noted.meant else "left out as no request"))
     for doubt in reading.ambiguous:
         say(f"  {reading.text[slice(*doubt.span)]!r:28} ambiguous: {doubt.why}")
     if plan is not None:

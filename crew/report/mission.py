@@ -3,6 +3,7 @@
 from collections.abc import Iterator, Mapping
 
 from crew.contracts.explain.checks import Check
+from crew.contracts.language.reading import noted_lines
 from crew.contracts.mission.event import Answered
 from crew.contracts.mission.provenance import sources
 from crew.contracts.mission_state import ENDS, StepPhase, StepRecord
@@ -64,6 +65,7 @@ def _reading(mission: MissionHistory) -> Html:
     reading = mission.state.reading
     items = [tag("li", tag("b", m.text), f" {meaning(m)}") for m in reading.mentions[:MAX_MENTIONS]]
     items += [tag("li", tag("b", u.word), " not understood", class_="asked") for u in reading.unread[:MAX_MENTIONS]]
+    items += [tag("li", line) for line in noted_lines(reading)]
     items += [tag("li", f"ambiguous: {d.why}", class_="refused") for d in reading.ambiguous[:MAX_MENTIONS]]
     return tag("ul", items or tag("li", "nothing in it was understood"), class_="read")
 

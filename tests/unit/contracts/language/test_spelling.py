@@ -4,8 +4,9 @@ from collections.abc import Iterator
 
 import pytest
 
-from crew.contracts.language.lexicon import Lexicon
+from crew.contracts.language.lexicon import Lexicon, lexicon_of
 from crew.contracts.language.reading import read_request
+from crew.contracts.language.slips import DOUBTFUL, LOOKED_UP
 from crew.contracts.language.spelling import recognised, slips
 from crew.contracts.site import Rules
 from crew.library import load_rules
@@ -50,17 +51,39 @@ def test_no_slip_turns_a_request_round(crew: str) -> None:
 @pytest.mark.parametrize(
     ("text", "word", "meant"),
     [
-        ("serach the north half", "serach", "search"),
         ("sned the rover to base", "sned", "send"),
         ("send the rover to bsae", "bsae", "base"),
-        ("find the victm", "victm", "victim"),
-        ("searchh the area", "searchh", "search"),
+        ("search the north hlaf", "hlaf", "half"),
+        ("send the Rovre to base", "Rovre", "rover"),
     ],
 )
 def test_a_slip_in_a_name_or_verb_is_read_and_asked_back(text: str, word: str, meant: str, rules: Rules) -> None:
     judged = judge(text, rules)
     assert judged.outcome == "question"
     assert f"'{word}' (read as '{meant}')" in judged.why
+
+
+@pytest.mark.parametrize(
+    ("text", "word", "meant"),
+    [
+        ("serach the north half", "serach", "search"),
+        ("Serach the north half", "Serach", "search"),
+        ("find the victm", "victm", "victim"),
+        ("searchh the area", "searchh", "search"),
+    ],
+)
+def test_a_slip_that_can_be_nothing_else_is_read_and_shown(text: str, word: str, meant: str, rules: Rules) -> None:
+    assert judge(text, rules).outcome == "accepted"
+    assert [(n.word, n.meant) for n in read_request(text, lexicon_of(rules)).noted] == [(word, meant)]
+
+
+@pytest.mark.parametrize("crew", list(NEGATED))
+def test_no_slip_that_is_read_is_a_doubtful_one(crew: str) -> None:
+    words = lexicon_of(load_rules(crew)).vocabulary
+    for meant in LOOKED_UP & words.names:
+        for wrong in typed(meant):
+            if slips(wrong, meant) and wrong not in DOUBTFUL and wrong not in words.known:
+                assert recognised(wrong, words.names) in (meant, None)
 
 
 @pytest.mark.parametrize(

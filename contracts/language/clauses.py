@@ -1,0 +1,287 @@
+"""Clauses that are no part of the request: what people say of themselves, who is calling, headings, stories.
+
+A clause of a closed kind (`stories.py`) is left out and noted. Any other one that only tells something becomes one
+unread piece, which is asked back. What names anything of the crew, a figure, a condition or a negation stays as it is.
+"""
+
+import re
+from collections.abc import Iterator
+from functools import cache
+from itertools import pairwise
+from typing import NamedTuple
+
+from crew.contracts.language.figures import is_numeral
+from crew.contracts.language.frames import FRAMES, OPENINGS, TAGS, phrases
+from crew.contracts.language.inflect import Form
+from crew.contracts.language.lexicon import Lexicon, match
+from crew.contracts.language.lookahead import ARTICLES
+from crew.contracts.language.mention import ROBOT_KINDS, MentionKind, Unread
+from crew.contracts.language.stories import (
+    ABOUT_A_PERSON,
+    CALLED,
+    CALLS,
+    CLASSES,
+    FINITE,
+    HARMLESS,
+    HEADINGS,
+    JOINED,
+    LABELS,
+    NEW,
+    OUT_OF_REACH,
+    POSSESSORS,
+    SPEAKS,
+    SUBJECTS,
+)
+from crew.contracts.language.tokens import Shape, Token
+from crew.contracts.language.words import REQUESTER
+
+_BOUNDS = frozenset(".!?;:,-()\u2026")
+_WHY_WORDS = frozenset(("as", "since", "for"))
+_PEOPLE = frozenset(("him", "her", "them", "he", "she", "they", "his", "their"))
+_AUXILIARY = frozenset(
+    ("have", "has", "get", "gets", "got", "need", "needs", "want", "wants", "like", "likes", "give", "make")
+)
+_LONGEST_SUBJECT = 4
+_LONGEST_CLAUSE = 24
+
+
+class Clause(NamedTuple):
+    """Tokens `first` up to `after`, without the words that join it (from `start`)."""
+
+    start: int
+    first: int
+    after: int
+    closed_by: str
+    whole: bool
+    """It lies between marks, not only between joining words."""
+
+
+class Pared(NamedTuple):
+    """What is left to be read, what was left out without asking, and what is asked back."""
+
+    tokens: list[Token]
+    noted: list[Unread]
+    asked: list[Unread]
+
+
+def pare(text: str, tokens: list[Token], lexicon: Lexicon) -> Pared:
+    """Take out the clauses that are no part of the request."""
+    gone: set[int] = set()
+    kept: dict[int, Token] = {}
+    noted: list[Unread] = []
+    asked: list[Unread] = []
+    for clause in _clauses(tokens):
+        said = range(clause.start, clause.after)
+        if gone & set(said) or len(said) > _LONGEST_CLAUSE:
+            continue
+        if (dropped := _harmless(tokens, clause, lexicon, kept)) is not None:
+            gone.update(dropped)
+            if dropped:
+                noted.append(_unread(text, tokens, dropped))
+        elif not any(is_numeral(tokens, k) for k in said) and _tells(tokens, clause, lexicon):
+            gone.update(said)
+            asked.append(_unread(text, tokens, range(clause.first, clause.after)))
+    left = [kept.get(k, token) for k, token in enumerate(tokens) if k in kept or k not in gone]
+    return Pared(left, noted, asked)
+
+
+def _unread(text: str, tokens: list[Token], said: range) -> Unread:
+    span = (tokens[said[0]].start, tokens[said[-1]].end)
+    return Unread(text[slice(*span)], span)
+
+
+def _clauses(tokens: list[Token]) -> Iterator[Clause]:
+    """Whole clauses between marks first, then their parts between joining words."""
+    begin = 0
+    for end in range(len(tokens) + 1):
+        if end < len(tokens) and not (tokens[end].shape is Shape.MARK and tokens[end].norm in _BOUNDS):
+            continue
+        if end > begin:
+            yield from _parts(tokens, begin, end)
+        begin = end + 1
+
+
+def _parts(tokens: list[Token], begin: int, end: int) -> Iterator[Clause]:
+    closed_by = tokens[end].norm if end < len(tokens) else ""
+    cuts = [k for k in range(begin, end) if _joins(tokens, k)]
+    yield Clause(begin, _past_joined(tokens, begin, end), end, closed_by, whole=True)
+    edges = sorted({begin, *cuts, end})
+    for start, after in pairwise(edges):
+        if (start, after) != (begin, end):
+            yield Clause(
+                start, _past_joined(tokens, start, after), after, closed_by if after == end else "", whole=False
+            )
+
+
+def _joins(tokens: list[Token], at: int) -> bool:
+    word, following = tokens[at].norm, tokens[at + 1].norm if at + 1 < len(tokens) else ""
+    if word in _WHY_WORDS:
+        return following in SPEAKS
+    if word == "so":
+        return following not in _degrees()
+    return word in JOINED and (at == 0 or tokens[at - 1].norm not in JOINED)
+
+
+def _past_joined(tokens: list[Token], at: int, end: int) -> int:
+    while at < end and tokens[at].norm in JOINED:
+        at += 1
+    return at
+
+
+def _harmless(tokens: list[Token], clause: Clause, lexicon: Lexicon, kept: dict[int, Token]) -> range | None:
+    """The tokens that a harmless clause loses; None if it is none."""
+    said = _said(tokens, clause.first, clause.after)
+    if not said:
+        return None
+    whole = range(clause.start, clause.after)
+    if _fits(HARMLESS, said) and not _names(tokens, clause, lexicon, but=MentionKind.VALUE):
+        return whole
+    value = _person(lexicon)
+    if value and _fits(ABOUT_A_PERSON, said) and not _names(tokens, clause, lexicon, but=MentionKind.VALUE):
+        _keep_person(tokens, clause, value, kept)
+        return whole
+    if _fits(CALLS, said) and not _names(tokens, clause, lexicon):
+        return whole
+    if clause.closed_by == ":" and (dropped := _heading(tokens, clause, lexicon)) is not None:
+        return dropped
+    called = _in_front_of(ROBOT_KINDS, CALLED, tokens, clause, lexicon)
+    called = called or _in_front_of((MentionKind.OBJECT,), OUT_OF_REACH, tokens, clause, lexicon)
+    return None if called is None else range(clause.start, called)
+
+
+def _heading(tokens: list[Token], clause: Clause, lexicon: Lexicon) -> range | None:
+    """`new task:`, `order for the rover:`, and the words around the noun of an action in `new transport order:`."""
+    if _fits(HEADINGS, _said(tokens, clause.first, clause.after)):
+        return range(clause.start, clause.after)
+    robot = _in_front_of(ROBOT_KINDS, HEADINGS, tokens, clause, lexicon)
+    if robot is not None:
+        return range(clause.start, robot)
+    labelled = clause.after - 1 if tokens[clause.after - 1].norm in LABELS else clause.after
+    verb = labelled - 1
+    named = verb >= clause.first and any(
+        e.kind is MentionKind.ACTION and len(e.words) == 1 for e in lexicon.names.get(tokens[verb].norm, ())
+    )
+    new = all(tokens[k].norm in NEW or tokens[k].norm in ARTICLES for k in range(clause.first, verb))
+    return range(labelled, clause.after) if named and new and labelled < clause.after else None
+
+
+def _in_front_of(
+    kinds: tuple[MentionKind, ...], patterns: tuple[str, ...], tokens: list[Token], clause: Clause, lexicon: Lexicon
+) -> int | None:
+    """Where the name begins that ends a clause, if the words before it fit a pattern."""
+    for at in range(clause.first + 1, clause.after):
+        name = match(lexicon.names, tokens, at)
+        if name is not None and name.kind in kinds and at + len(name.words) == clause.after:
+            end = at - 1 if tokens[at - 1].norm in ARTICLES else at
+            return at if end > clause.first and _fits(patterns, _said(tokens, clause.first, end)) else None
+    return None
+
+
+def _keep_person(tokens: list[Token], clause: Clause, value: str, kept: dict[int, Token]) -> None:
+    """Keep whom the clause tells of, where `him` or `her` follows."""
+    if not any(t.norm in _PEOPLE for t in tokens[clause.after :]):
+        return
+    people = frozenset((*_class("people"), *_class("person")))
+    who = [k for k in range(clause.first, clause.after) if tokens[k].norm in people]
+    others = any(t.norm in people for k, t in enumerate(tokens) if k not in range(clause.first, clause.after))
+    if who and not others:
+        kept[who[-1]] = tokens[who[-1]]._replace(norm=value, possessive=False)
+
+
+def _person(lexicon: Lexicon) -> str:
+    """The one run-time value that is a person, by a name of one word; empty if there is none."""
+    known = set(lexicon.reports.values())
+    named = {e.name for e in lexicon.names.get("person", ()) if e.kind is MentionKind.VALUE and e.name in known}
+    return next(iter(named)) if len(named) == 1 == len(known) else ""
+
+
+def _tells(tokens: list[Token], clause: Clause, lexicon: Lexicon) -> bool:
+    """Whether a clause only tells something: its own subject, a finite verb, and nothing of the crew."""
+    norms = [t.norm for t in tokens[clause.first : clause.after]]
+    reason = not clause.whole and tokens[clause.start].norm in ("because", "'cause", "since", "as")
+    if not norms or (len(norms) < 3 and not reason) or clause.closed_by == "?":
+        return False
+    if any(t.shape is not Shape.WORD for t in tokens[clause.first : clause.after]):
+        return False
+    if " ".join(norms) in _framing():
+        return False
+    turning = lexicon.vocabulary.turning
+    if any(n in turning or n.endswith("n't") for n in norms) or _names(tokens, clause, lexicon):
+        return False
+    asking = (k for k, n in enumerate(norms, clause.first) if n not in _AUXILIARY and _is_action(lexicon, tokens, k))
+    if any(not _past(lexicon, tokens, k) for k in asking):
+        return False
+    opens = norms[0] in SUBJECTS or (norms[0] in POSSESSORS and norms[1:2] and norms[1] not in FINITE)
+    behind = norms[1 : _LONGEST_SUBJECT + 1]
+    past = any(_past(lexicon, tokens, k) for k in range(clause.first + 1, clause.after))
+    told = past or any(n in FINITE for n in behind) or ("'" in norms[0] and norms[0] in SUBJECTS)
+    return bool(opens and told) and not (norms[0] in ("i", "we", "i'd", "you") and _wishes(norms))
+
+
+def _wishes(norms: list[str]) -> bool:
+    """`I would like ...`, `I want ...`: a request."""
+    return (
+        any(n in ("want", "need", "like", "wish", "would", "prefer", "love") for n in norms[1:4]) or norms[0] == "i'd"
+    )
+
+
+def _is_action(lexicon: Lexicon, tokens: list[Token], at: int) -> bool:
+    return any(
+        e.kind is MentionKind.ACTION and _stands(tokens, at, e.words) for e in lexicon.names.get(tokens[at].norm, ())
+    )
+
+
+def _past(lexicon: Lexicon, tokens: list[Token], at: int) -> bool:
+    """Whether a verb of the crew is told of, and asks for nothing."""
+    entries = [e for e in lexicon.names.get(tokens[at].norm, ()) if _stands(tokens, at, e.words)]
+    return bool(entries) and all(e.kind is MentionKind.ACTION and e.form is Form.PAST for e in entries)
+
+
+def _stands(tokens: list[Token], at: int, words: tuple[str, ...]) -> bool:
+    return tuple(t.norm for t in tokens[at : at + len(words)]) == words
+
+
+def _names(tokens: list[Token], clause: Clause, lexicon: Lexicon, but: MentionKind | None = None) -> bool:
+    """Whether a clause names a robot, a place, an object or a run-time value."""
+    return any(
+        e.kind not in (MentionKind.ACTION, but) and e.name != REQUESTER and _stands(tokens, k, e.words)
+        for k in range(clause.first, clause.after)
+        for e in lexicon.names.get(tokens[k].norm, ())
+    )
+
+
+def _said(tokens: list[Token], first: int, after: int) -> str:
+    return " ".join(t.norm + (" 's" if t.possessive else "") for t in tokens[first:after])
+
+
+def _fits(patterns: tuple[str, ...], said: str) -> bool:
+    return _compiled(patterns).fullmatch(said) is not None
+
+
+@cache
+def _compiled(patterns: tuple[str, ...]) -> re.Pattern[str]:
+    return re.compile("|".join(f"(?:{_filled(p)})" for p in patterns))
+
+
+def _filled(pattern: str) -> str:
+    while (filled := re.sub(r"<(\w+)>", lambda m: f"(?:{CLASSES[m.group(1)]})", pattern)) != pattern:
+        pattern = filled
+    return pattern
+
+
+@cache
+def _class(name: str) -> tuple[str, ...]:
+    return tuple(w for w in CLASSES[name].split("|") if "<" not in w)
+
+
+@cache
+def _framing() -> frozenset[str]:
+    """Courtesy and procedure words: read as such, where they stand."""
+    return frozenset(phrases((*FRAMES, *OPENINGS, *TAGS)))
+
+
+@cache
+def _degrees() -> frozenset[str]:
+    """What `so` strengthens."""
+    words = (w.split()[0] for name in ("feeling", "late", "very") for w in CLASSES[name].split("|"))
+    return frozenset(words) | {"far", "much", "that"}

@@ -1,0 +1,172 @@
+"""Wordings that say the same as a plainer one, which the reader knows. Templates, no logic.
+
+A rewriting never adds a name, a place, a figure or a negation, and never takes one away. `(a|b)` is a choice.
+"""
+
+from functools import cache
+
+from crew.contracts.language.templates import expansions
+
+Words = tuple[str, ...]
+
+_IF = "(if|whether)"
+_ANYONE = "(anyone|anybody|someone|somebody|anyone out|anybody out|someone out|somebody out)"
+_IS = "(there is|there's|there are|there might be|there could be)"
+
+REWRITES: tuple[tuple[str, str], ...] = (
+    (
+        f"(see|check|look|find out|make sure|tell me|let me know|have a look|take a look) {_IF} {_IS} {_ANYONE}",
+        "find anyone",
+    ),
+    (f"(see|check|look|find out|tell me|let me know) {_IF} {_ANYONE} (is|might be|could be)", "find anyone"),
+    ("(see|check|find out|tell me) who (is|might be|could be)", "find anyone"),
+    ("(see|check|look|find out|tell me) (if|whether) you (can|could) (find|see|spot|locate)", "find"),
+    ("see if you (can|could)", "please"),
+    ("(can|could|would|will) (u|ya)", "can you"),
+    ("(why don't|why do not|why not) (we|you)", "please"),
+    ("(is|is it|would it be) possible (for|that) (you|we|the robots) (to|can|could)", "please"),
+    ("is possible (to|that you|you to|you)", "please"),
+    ("(any|is there any|is there a) chance (you could|you can|that you could|we could|you would)", "please"),
+    ("how about (|we |you |just )", "please"),
+    ("(hello|hi|hey) there", "hello"),
+    ("(i'd|i would|we'd|we would) (love|really like|very much like)", "i would like"),
+    ("(grab|get|fetch|bring|hand|pass|give) me over", "bring me"),
+    ("grab me", "fetch me"),
+    ("(off you go|off we go|off with you|go on) to", "go to"),
+    ("(have|take) (a|another|one more) (quick|good|close|careful|thorough|proper) look", "have a look"),
+    ("(it is|it's) (needed|required|necessary|important|essential) to", "it is necessary to"),
+    ("(have|get|ask|tell) (someone|somebody|anyone) to", "please"),
+    ("have (someone|somebody|anyone)", "please"),
+    ("(|i'm |i am |we're |we are )going to (need|want)", "i need"),
+    ("(may|might|could|can) (i|we) (|please |kindly |possibly )have", "i want"),
+    ("(it is|it's) needed that", "it is needed that"),
+    ("(it is|it's) required that", "it is required that"),
+    ("(it is|it's) (necessary|important|essential) that", "it is important that"),
+    ("is (needed|required|necessary|important|essential) (to|that)", "it is necessary to"),
+    ("(i'd|i would|we'd|we would) be (|so |very |most )(grateful|thankful|happy|glad|pleased|obliged) for", "i want"),
+    ("(|please )arrange for", "please"),
+    ("see that", "see to it that"),
+    ("so (wanted|needed)", "needed"),
+    ("(i|we) would like to know where", "where"),
+    ("(do you know|tell me|do we know|let me know|show me|find out) where", "where"),
+    ("(in need of|short of|crying out for|asking for|calling for)", "needs"),
+    ("(is|are) (in need of|short of|asking for|calling for|requesting)", "needs"),
+    ("(asks for|calls for|requires|requests|could do with|could use)", "needs"),
+    ("(make your way|make its way|find your way|get yourself|take yourself|betake yourself) to", "go to"),
+    ("(along|over|out|across|off|round|around|straight|directly|right|all the way|on over) to", "to"),
+    ("(along|out|across|straight|directly|right|all the way) (into|towards)", "to"),
+    ("back (at|in|on)", "at"),
+    ("report back", "report"),
+    ("back here", "here"),
+    ("on top of", "on"),
+    ("(report|tell me|say|show me) what you (find|see|saw|found)", "report"),
+    (
+        "(report|tell me|let me know|say|shout) (if|when|whether|once|as soon as) (you|it) (find|finds|see|sees|spot|"
+        "spots) "
+        "(anyone|anybody|someone|somebody|anything|something|him|her|them)",
+        "report",
+    ),
+    ("(return|give|provide) (the|his|her|their) (coordinates|position|location|whereabouts)", "report"),
+    ("(determine|establish|identify|obtain|work out) (the|his|her|their) (position|location|whereabouts) of", "find"),
+    ("(identify|determine|establish|work out|figure out) where", "where"),
+    (
+        "(anyone|anybody|someone|somebody) (who needs help|in need of help|in trouble|in distress|in need|who is lost|"
+        "who is hurt|who is in trouble|who is missing|who might be lost|who may be lost)",
+        "anyone",
+    ),
+    ("(whoever|whomever) is (out there|in there|over there)", "whoever is there"),
+    (
+        "(stop|end|terminate|call off|break off|discontinue) (the|this) (mission|operation|search|task|job)",
+        "abort the mission",
+    ),
+    ("(move|get|bring|take|drive) (yourself|itself|himself|yourselves) to", "go to"),
+    ("to (that|this|the same) (position|location|spot|place|point)", "there"),
+    ("(follow|follow on|come along|come up|move up|close up) to", "go to"),
+)
+"""What is said, and what it is read as."""
+
+BEFORE_A_PLACE: tuple[tuple[str, str], ...] = (
+    ("(down|up|back down|back up) to", "to"),
+    ("back", "to"),
+    ("(goes|belongs|should go|must go|has to go|needs to go) (on|onto)", "put on"),
+)
+"""The same, only in front of a place's name."""
+
+DONE_AT: dict[str, tuple[str, ...]] = {
+    "base": ("rtb",),
+    "charging": (
+        "charge",
+        "recharge",
+        "charge up",
+        "charge itself",
+        "charge yourself",
+        "recharge itself",
+        "recharge yourself",
+    ),
+}
+"""Verbs, at the end of a clause, for going to a place of this name, in a crew that has it."""
+
+BEFORE_A_ROBOT: tuple[tuple[str, str], ...] = (("(take|bring|get|position|order|park|station|route)", "send"),)
+"""The same, only in front of a robot's name that a goal follows."""
+LEADS_ON: frozenset[str] = frozenset(("to", "at", "here", "into", "in"))
+"""What opens that goal."""
+
+BEFORE_AN_OBJECT: tuple[tuple[str, str], ...] = (
+    ("(might|may|can|could) (i|we) (have|get|please have|please get|just have|just get|possibly have)", "could i have"),
+    ("i wonder if (i|we) (might|may|can|could) (have|get)", "could i have"),
+    ("(let me have|let us have|i'll have|i'll take|i will have|i will take|we'll have|we'll take)", "could i have"),
+)
+"""The same, only in front of an object's name."""
+
+HESITATIONS: frozenset[str] = frozenset(("um", "uh", "uhm", "er", "erm", "hmm", "hm", "mm", "ah", "umm", "uhh", "ehm"))
+"""Sounds that say nothing, except between two figures or two names of one kind, where they may correct."""
+
+ARROWS: tuple[str, ...] = ("->", "=>", "-->", "==>", ">", ">>")
+"""Marks that mean `to`."""
+
+WAITING: tuple[Words, ...] = tuple(
+    tuple(said.split())
+    for said in ("wait for me at", "wait for me in", "wait over at", "wait at", "wait in", "wait by")
+)
+"""Before a place: to go there."""
+
+
+@cache
+def wordings() -> dict[str, tuple[tuple[Words, Words], ...]]:
+    """Every wording with its plain words, by its first word, the longest first."""
+    return _indexed(REWRITES)
+
+
+@cache
+def wordings_before_objects() -> dict[str, tuple[tuple[Words, Words], ...]]:
+    """The same, for wordings in front of an object's name."""
+    return _indexed(BEFORE_AN_OBJECT)
+
+
+@cache
+def wordings_before_places() -> dict[str, tuple[tuple[Words, Words], ...]]:
+    """The same, for wordings in front of a place's name."""
+    return _indexed(BEFORE_A_PLACE)
+
+
+@cache
+def wordings_before_robots() -> dict[str, tuple[tuple[Words, Words], ...]]:
+    """The same, for wordings in front of a robot's name."""
+    return _indexed(BEFORE_A_ROBOT)
+
+
+def _indexed(templates: tuple[tuple[str, str], ...]) -> dict[str, tuple[tuple[Words, Words], ...]]:
+    found: dict[str, dict[Words, Words]] = {}
+    for template, plain in templates:
+        for wording in expansions(template):
+            words = tuple(wording.split())
+            found.setdefault(words[0], {}).setdefault(words, tuple(plain.split()))
+    return {first: tuple(sorted(of.items(), key=lambda i: -len(i[0]))) for first, of in found.items()}
+
+
+@cache
+def wording_words() -> frozenset[str]:
+    """Every word of a wording: none of them is a slip."""
+    said = (word for of in wordings().values() for words, _ in of for word in words)
+    done = (w for verbs in DONE_AT.values() for said in verbs for w in said.split())
+    return frozenset((*said, *done, *HESITATIONS, *(w for words in WAITING for w in words)))

@@ -1,0 +1,195 @@
+"""What people say of themselves and around a request, which is no part of it: patterns of whole clauses, no logic.
+
+A clause of this kind has its own subject, and names nothing of the crew. Nothing in it may be a place, a time, a
+quantity, a permission, a warning or a condition: whoever adds a word here asks first what it would be as a constraint.
+"""
+
+import re
+
+CLASSES: dict[str, str] = {
+    "i": "i|we",
+    "am": "i'm|i am|we're|we are|i feel|we feel|i was|i'm feeling|i am feeling",
+    "have": "i have|i've|i've got|i have got|i got|we have|we've got",
+    "my": "my|our",
+    "very": "so|very|really|quite|a bit|a little|rather|too|pretty|terribly|awfully|just|a little bit",
+    "feeling": "tired|thirsty|hungry|starving|cold|freezing|busy|worried|worried sick|anxious|scared|afraid|nervous|"
+    "excited|bored|sick|ill|unwell|poorly|exhausted|dizzy|upset|sad|curious|confused|old|old now|an old man|"
+    "an old woman|"
+    "an old lady|new here|new to this|in a hurry|in a rush|running late|getting old|getting on|getting tired|not well|"
+    "not feeling well|not so young any more|not as young as i was|not young any more|out of breath|blind|deaf|shaking|"
+    "glad|happy|desperate|in pain|in a bit of a hurry|no expert|not sure how this works|beside myself",
+    "body": "hand|hands|leg|legs|knee|knees|arm|arms|foot|feet|back|eye|eyes|eyesight|sight|hearing|ears|hip|hips|neck|"
+    "shoulder|shoulders|wrist|wrists|finger|fingers|ankle|memory|throat|mouth|head|heart|nerves",
+    "ails": "hurts|hurt|aches|ache|is hurting|are hurting|is aching|are aching|shakes|shake|is shaking|are shaking|"
+    "is sore|"
+    "are sore|is bad|are bad|is stiff|are stiff|is weak|are weak|is tired|are tired|is broken|is killing me|"
+    "are killing me|is dry|is gone|are gone|fails me|fail me|is failing|are failing|is not good|are not good|"
+    "isn't good|"
+    "aren't good|isn't great|aren't great|don't work|doesn't work|is going|are going|won't carry me|is playing up|"
+    "is not what it was|are not what they were|isn't what it was|aren't what they were|isn't what it used to be|"
+    "aren't what they used to be|trembles|tremble|is trembling|are trembling|is cold|are cold|is racing|is pounding",
+    "ailing": "bad|sore|stiff|weak|broken|sprained|dodgy|poor|terrible|shaky|numb|swollen|useless|slow|wobbly|unsteady|"
+    "tired|dry|cold|killing me|failing",
+    "cannot": "can't|cannot|can not|can hardly|can barely|don't|do not|couldn't|could not",
+    "manage": "see|hear|walk|walk far|move|stand|stand up|get up|bend|bend down|sleep|manage|manage alone|do it myself|"
+    "do it alone|do this myself|do this alone|see much|see anything|hear much|see a thing|hear a thing|get about|"
+    "get around|cope|remember|remember how this works|run|climb",
+    "well": "well|very well|so well|that well|too well|properly|much|very much|any more|anymore|these days|today|"
+    "at all|right now|at the moment|very well any more|very well these days|so well any more|so well these days|"
+    "very well anymore|far|by myself|on my own|as i used to|like i used to|alone|very far|now",
+    "it": "it is|it's|this is|that is|that's",
+    "late": "late|dark|cold|hot|urgent|important|very important|an emergency|serious|a matter of life and death|nice|"
+    "getting late|getting dark|getting cold|late already|hot today|cold today|hot in here|cold in here|"
+    "getting late already|the end of the day|lunchtime|terrible|awful|dreadful|a worry|my first time|a lovely day|fun|"
+    "a beautiful day|the least we can do|so exciting|the right thing",
+    "person": "<people>|victim|casualty|survivor|patient|missing person|injured person|hiker|walker|climber|runner|"
+    "jogger|camper|friend|colleague|person|someone|somebody|neighbour",
+    "people": "man|woman|boy|girl|guy|lady|gentleman|child|kid|kids|children|son|daughter|brother|sister|mother|father|"
+    "mum|mom|mummy|mommy|dad|daddy|husband|wife|grandson|granddaughter|grandmother|grandfather|grandma|grandpa|granny|"
+    "grandad|granddad|uncle|aunt|auntie|cousin|nephew|niece|fellow|chap|bloke|pal|mate|buddy|patient|friends",
+    "whose": "my|our|the|a|an|some|his|her|their|this|that|one|another",
+    "poor": "poor|little|old|dear|young|elderly|lost|missing|dearest|own|best",
+    "gone": "is lost|is missing|are lost|are missing|got lost|has got lost|has gotten lost|has gone missing|"
+    "went missing|"
+    "is gone|has gone|has disappeared|disappeared|has vanished|vanished|has wandered off|wandered off|ran off|ran away|"
+    "has run off|has run away|has not come back|hasn't come back|did not come back|didn't come back|never came back|"
+    "did not come home|didn't come home|hasn't come home|has not come home|has been missing|was reported missing|"
+    "is reported missing|has been reported missing|reported missing|reported overdue|is overdue|overdue|gone missing|"
+    "lost|missing|walked off|has walked off|lost his way|lost her way|has lost his way|has lost her way|strayed",
+    "since": "out there|somewhere|somewhere out there|this morning|last night|yesterday|since this morning|"
+    "since last night|since yesterday|again|today|for hours|for hours now|in the woods|on a walk|on a hike|(?:for|"
+    "since) (?:a|an|one|two|three|four|five|six|many|several|some|[0-9]+) (?:hour|hours|day|days|minutes)(?: now|"
+    " already)?",
+    "lost": "lost|have lost|have just lost|just lost|are looking for|miss|can't find|cannot find|have not found|"
+    "haven't found|have been looking for",
+    "caller": "control|command|ops|operations|operator|headquarters|hq|central|mission control|ground control|"
+    "incident command|the control room|control room",
+    "sorry": "sorry|so sorry|i'm sorry|i am sorry|i'm so sorry|terribly sorry|i hate|i don't like|i do not like|"
+    "i don't mean|"
+    "i don't want|i do not want|forgive me|pardon me|apologies|my apologies",
+    "bother": "to bother you|to trouble you|to disturb you|to interrupt|to ask|to be a bother|to be a nuisance|"
+    "to be a pain|to bother you again|to trouble you again|for bothering you|for disturbing you|for the trouble|"
+    "for interrupting|for asking|to be rude|to rush you|to nag",
+    "praise": "a star|an angel|a dear|a darling|a love|a gem|the best|a lifesaver|a life saver|very kind|so kind|"
+    "too kind|"
+    "great|brilliant|wonderful|amazing|my hero",
+    "good": "good|clever|nice|lovely",
+    "animal": "dog|doggy|boy|girl|robot|drone|rover",
+    "hope": "i hope|i do hope|we hope|hopefully|i trust",
+    "fine": "that's ok|that's okay|that's all right|that's alright|that is ok|that is all right|that's fine|"
+    "it's ok|it's all right|it's not too much trouble|that's not too much trouble|that is not too much trouble",
+    "hoped": "this works|it works|that works|that makes sense|you are well|you're well|you can help|you can help me|"
+    "you can help us|you understand|you can hear me|all is well",
+    "thanks": "thanks|thank you|many thanks|thanks a lot|thanks so much|thank you so much|thank you very much|"
+    "thanks a million|thanks a bunch|ta|cheers|bless you|god bless|god bless you|thanks in advance|"
+    "thank you in advance|thank you kindly|thanks for your help|thank you for your help|much obliged|much appreciated",
+}  # fmt: skip
+"""Classes of wordings, by the name that the patterns give them."""
+
+HARMLESS: tuple[str, ...] = (
+    "<am>(?: <very>| only| just)* <feeling>(?: today| now| these days)?",
+    "<have> (?:a |an )?(?:<very> )?<ailing> <body>(?: today| these days)?",
+    "<my> (?:poor |old )?<body> (?:is|are|feels|feel) (?:<very> )*<ailing>(?: today| these days| again| now)?",
+    "<my> (?:<ailing> |poor |old )?<body> (?:<very> )?<ails>(?: <very>)?(?: today| these days| again| any more|"
+    " anymore| now)?",
+    "<i> (?:<very> )?<cannot> <manage>(?: <well>)*",
+    "<it>(?: getting)?(?: so| very| really| quite| rather| pretty| awfully| terribly| just)* <late>(?: now| already)?",
+    "<it> (?:just )?what i (?:need|want)",
+    "(?:time is|time's) (?:short|running out|of the essence)",
+    "there (?:is|isn't|is not) (?:no|much|any) time(?: to lose| to waste| left)?",
+    "(?:we|i) (?:haven't got|don't have|have not got|do not have|haven't) much time(?: left)?",
+    "every (?:minute|second|moment) counts",
+    "(?:please )?(?:hurry|hurry up|be quick|don't be long|quick)",
+    "(?:<hope>|if) <fine>",
+    "<hope> <hoped>",
+    "<sorry>(?: <very>)? <bother>",
+    "<i> (?:know|realise|realize|understand|appreciate) (?:you're|you are|it's|it is|this is) "
+    "(?:<very> )?(?:busy|late|early|a lot|a lot to ask|a bother|difficult|annoying|a nuisance)",
+    "how are you(?: today| doing| doing today)?",
+    "(?:<i> )?(?:really |do |much )*appreciate (?:it|that|this|your help|the help)",
+    "(?:you're|you are) <praise>",
+    "<good> <animal>",
+    "emergency|an emergency|mayday|this is an emergency|thank god|thank god (?:you're|you are) here|"
+    "well done|nice work|good job|great job|good work|what a day|oh my|oh no|dear god|help|help me|no rush|"
+    "there's no rush|"
+    "there is no hurry|no hurry|take your time|as always|as usual|if i may ask|if i may|so to speak|you see|you know",
+    "(?:<thanks>)(?: <thanks>)*",
+)
+"""Clauses that are left out, in any crew. `<name>` stands for a class."""
+
+ABOUT_A_PERSON: tuple[str, ...] = (
+    "(?:<whose> )?(?:<poor> )*<person> (?:<very> )?<gone>(?: since)?(?: <since>)*",
+    "(?:we|i|they|<whose> (?:<poor> )*<person>) <lost> <whose> (?:<poor> )*<person>(?: <since>)*",
+    "(?:someone|somebody) (?:<gone>)(?: <since>)*",
+    "<have> (?:someone|somebody|<whose> (?:<poor> )*<person>) (?:missing|lost|overdue)(?: <since>)*",
+    "(?:there is|there's) (?:someone|somebody|<whose> (?:<poor> )*<person>) (?:missing|lost|overdue)(?: <since>)*",
+    "<am> (?:<very> )*(?:worried|concerned|anxious|scared) (?:about|for) <whose> (?:<poor> )*<person>",
+)
+"""Clauses that are left out where a crew looks for a person: the person is kept for `him` and `her`."""
+
+CALLS: tuple[str, ...] = (
+    "this is (?:the )?<caller>(?: speaking| calling)?",
+    "<caller>(?: speaking| calling| here)?",
+    "from <caller>",
+)
+"""Who speaks, in a clause of its own."""
+OUT_OF_REACH: tuple[str, ...] = ("<i> <cannot> (?:quite )?(?:reach|get to|get at|lift|carry|hold|fetch|find)",)
+"""What the person cannot do with the thing that is then asked for."""
+CALLED: tuple[str, ...] = ("<caller> (?:to|for|calling)", "this is <caller> (?:to|for|calling)")
+"""Who speaks, in front of the robot that is called."""
+
+_LABEL = "task|order|job|incident|situation|mission|request|assignment|tasking|instruction|instructions|message|"
+"work order|priority|"
+"action|objective"
+HEADINGS: tuple[str, ...] = (
+    f"(?:new|next|your|the|my|another|a|one|priority|urgent|today's|first)? ?(?:{_LABEL})(?: is|"
+    f" number one)?(?: (?:number |no )?[0-9]+)?",
+    f"(?:new|next|your|the|my|another|a|one|priority|urgent)? ?(?:priority |urgent )?(?:{_LABEL}) for",
+)
+"""What stands before a colon, alone or with the robot that is called."""
+LABELS: frozenset[str] = frozenset(
+    ("task", "order", "job", "mission", "request", "assignment", "tasking", "operation", "run")
+)
+"""Nouns behind the noun of an action, in `transport order:`; they say nothing."""
+NEW: frozenset[str] = frozenset(("new", "next", "priority", "urgent", "another"))
+"""Adjectives in front of it."""
+
+JOINED: frozenset[str] = frozenset(("so", "and", "but", "because", "cause", "'cause", "since", "as", "for", "well"))
+"""Words that may stand in front of such a clause and go with it, where a clause begins behind them."""
+SPEAKS: frozenset[str] = frozenset((
+    "i", "we", "i'm", "we're", "it", "it's", "my", "our", "this", "that's", "i've", "i'd", "we've", "time", "there",
+    "every",
+))  # fmt: skip
+"""What follows `as`, `since` and `for` where they give a reason."""
+
+PERSON_NOUNS: tuple[str, ...] = tuple(
+    word for word in (*CLASSES["people"].split("|"), "climber", "walker", "runner", "jogger", "camper", "friend",
+    "colleague", "neighbour")
+    if word not in ("kids", "children", "friends", "patient", "mate", "buddy", "pal")
+)  # fmt: skip
+"""What else a person is called, in a crew that looks for `person`."""
+
+PERSON_PLURALS: tuple[str, ...] = ("people", "children", "kids", "men", "women", "friends")
+
+SUBJECTS: frozenset[str] = frozenset((
+    "i", "we", "he", "she", "they", "it", "this", "that", "there", "i'm", "we're", "i've", "we've", "it's", "he's",
+    "she's",
+    "they're", "that's", "there's", "i'd", "you're", "i'll", "they've",
+))  # fmt: skip
+POSSESSORS: frozenset[str] = frozenset(("my", "our", "his", "her", "their", "the", "a", "an", "some"))
+FINITE: frozenset[str] = frozenset((
+    "is", "are", "was", "were", "has", "had", "have", "am", "be", "been", "will", "would", "could", "might", "may",
+    "can", "does", "did",
+    "says", "said", "told", "thinks", "knows", "likes", "wants", "needs", "looks", "feels", "seems", "gets", "got",
+    "makes",
+    "hates", "loves", "works", "keeps", "came", "went", "took", "gave", "saw", "left", "hurts", "isn't", "aren't",
+    "wasn't", "hasn't",
+    "haven't", "hadn't", "can't", "don't", "doesn't", "didn't", "won't", "wouldn't", "couldn't", "just", "always",
+    "really", "never",
+))  # fmt: skip
+"""Verbs by which a clause is told and not asked for, behind a subject that is no robot."""
+
+
+def told_words() -> frozenset[str]:
+    """Every word of the closed kinds: none of them is a slip."""
+    return frozenset(w for said in CLASSES.values() for w in re.findall(r"[a-z']+", said))

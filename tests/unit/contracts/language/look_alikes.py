@@ -1,0 +1,386 @@
+"""Requests that look like what the reader reads without asking, and are not: none of them may be accepted."""
+
+AIR = """
+send the rover to bass
+send the rover to Rovre
+search the northern lights
+search the Nroth half
+find the biker
+find the bikers
+find the hike
+send the drover to base
+send the rover to baste
+search the south hall
+search the noth half
+search the soth half
+search nth half
+search the east hlaf, but not now
+send the rvoer to bed
+send the rover to bsae_2
+send the rovr_2 to base
+search the wets half
+search the norht_half2
+find the hiekr tomorrow
+don't serach the north half
+dont snd the rover to base
+dno't send the rover to base
+nto search the north half
+unles it rains search the north half
+search the north half utnil noon
+serach the north half or the south half
+serach the area xecept the north half
+send the rover to abse or (3, 3)
+send the rover to (3, t)
+serach the area tiwce
+is the rover needed at base
+the rover is not needed at base
+the rover is no longer needed at base
+the rover was needed at base
+the rover was needed at base yesterday
+the rover is needed at base tomorrow
+the rover is needed at base if it rains
+the rover isn't needed at base
+the rover is needed nowhere
+why is the rover needed at base
+the rover is hardly needed at base
+rover or base
+rover, not base
+rover, no base
+not rover, base
+rover? base
+is rover, base
+rover. base?
+rover, base, (3, 3)
+rover, drone, base
+rover base camp
+rover, the old base
+rover, other base
+hiker, no north half
+hiker, north half or south half
+north half, south half
+drone, base
+drone: base
+drone -> base
+rover -> base -> (3, 3)
+rover -> nowhere
+rover -> hangar
+rover <- base
+base -> rover
+rover -/> base
+no rover -> base
+rover -> base?!? never
+search of the north half cancelled
+search of the north half is over
+the search of the north half was long
+the search of the north half failed
+has the search of the north half begun
+cancel the recon of the north half
+no recon of the north half
+recon of the north half is done
+no delivery
+report on the search of the north half
+my mother says search the north half
+my brother said to search the north half
+send the rover to my mother
+send the rover to the woman
+send the rover to my brother and find my sister
+find my brother and send the rover to my mother
+find the hiker and send the rover to my wife
+find the man, not the woman
+find the man and send the rover to the woman
+my brother is not lost, search the north half
+my brother is lost if he is not back by noon, find him
+my brother is lost in the north half, search the south half for my sister and send the rover to her
+nobody is lost, search the north half
+find the man with the dog
+find the man in the red coat
+find my brother's bag
+search the man's house
+find the people
+find all the men
+see if there is a fire in the north half
+see if the rover is at base
+check if you should search the north half
+see if anyone is hurt before you search the north half
+see if there is anyone in the village
+find out whether anyone searched the north half
+tell me if you search the north half
+see if you can't find the hiker
+see who is at base
+check if there is nobody in the north half
+let me know if anyone searches the north half
+why don't we ask first and search the north half
+is it possible that the rover is at base
+any chance the rover is at base
+any chance that anyone is in the north half by now, or not
+how about not searching the north half
+how about we don't search the north half
+I would love not to search the north half
+I'd love it if nobody searched the north half
+return to base
+return, base
+return the drone to base
+return to the north half
+return the rover
+return to base if you can
+the rover must be at base
+the rover should be at base
+the rover could be at base
+the rover may be at base
+the rover must be near base
+the rover has to be at base by noon
+it must be at base
+it has to be searched
+it needs to go to base
+this is control, disregard, search the north half
+control to iris: do not search the north half
+control to rover: go to control
+control to control: search the north half
+new task: none
+task cancelled: search the north half
+no new task: search the north half
+old task: search the north half
+yesterday's task: search the north half
+example: search the north half
+quote: search the north half
+joke: rover to base
+task for the drone: rover to base
+what about the rover going to base
+is there any chance of the rover going to base
+report to base
+search the north half and report to base
+the hiker is waiting for the rover
+the rover was to go to base
+is the rover to go to base
+the rover is to stay at base
+the rover is to go to base at noon
+is the drone to search the north half
+why is the drone to search the north half
+do a short search of the north half
+do a second search of the north half
+do half a search of the north half
+kick the rover off base
+as for the rover, leave it
+regarding the rover: no base
+send someone to search the north half tomorrow
+have you someone at base
+to base
+to base with the drone
+to base, not the rover
+back base
+go back
+the rover is able to go to base
+the drone might be able to search the north half
+it is not time for the rover to go home
+task for nobody: rover to base
+mission for tomorrow: rover to base
+search the west gate
+search the north pole
+search the field hospital
+search the site office
+search the area code
+search west ham
+send the rover to the loading base
+send the rover to the parking base
+wait at base
+wait, at base
+drone, wait at base
+wait until the rover is at base
+rover wait at the corner
+go up and don't search the north half
+the hiker must be in the north half or the south half, search it
+the hiker was in the north half
+the hiker is probably in the north half
+the hiker reported that the south half is safe, send the rover
+missing: the rover, at base
+go to er, base or, um, the hangar
+rover to 3, uh, 5, uh, 7
+search at 5, er, 8 metres in the north half
+rover to (1, 1), um, (2, 2)
+rover to base, er, (2, 2)
+search the north half, er, the south half
+send the drone, um, the rover, to base
+"""
+
+INDOOR = """
+bring the bootle to room_a
+bring the battle to room_a
+bring the kettle to room_a
+bring the tube to room_a
+bring me the cub, please
+bring the Botlte to room_a
+bring the bottl_e2 to room_a
+put the cube on tbale_c
+put the cube on the tabel c
+put the cube on the stable
+put the cube on the tablet
+take the bottle to the mom
+take the bottle to roam a
+take the bottle to rom_c
+send the hog to the charger
+send the dg to the charger
+send the god to the charger
+send the dog to the changer
+send the dog to the charge
+dno't bring the bottle to room_a
+bring the bottel to room_a unles it is full
+brign the bottle or the cube to room_a
+take the botttle to room_a, nto room_b
+never tkae the bottle to room_a
+the bottle is not needed in room_b
+the bottle is no longer wanted in room_b
+the bottle was wanted in room_b
+is the bottle wanted in room_b
+who said the bottle is wanted in room_b
+the bottle is wanted in room_b tomorrow
+the bottle isn't wanted in room_b
+the bottle is wanted in the kitchen
+bottle, room_a
+bottle. room_a
+bottle? room_a
+bottle: room_a or room_b
+bottle: not room_a
+bottle, cube, room_a
+bottle, cube
+bottle: kitchen
+bottle -> kitchen
+bottle -> room_a -> room_b
+hammer -> room_a
+bottle <- room_a
+room_a -> bottle
+no bottle -> room_a
+dog: room_a, room_b
+dog, not room_a
+dog, no charger
+dog? charger
+dog. charger?
+is the dog, charger
+dog, cat, charger
+cat, charger
+dog charger room
+delivery of the bottle to room_a was late
+delivery of the bottle to room_a is done
+the delivery of the bottle to room_a failed
+the delivery of the bottle to room_a took an hour
+no delivery of the bottle to room_a
+cancel the delivery of the bottle to room_a
+delivery of the bottle to room_a tomorrow
+delivery of the bottle to the kitchen
+delivery refused: bottle to room_a
+delivery cancelled: bottle to room_a
+delivery order: hammer to room_a
+delivery order: bottle to room_a or room_b
+old delivery order: bottle to room_a
+the transfer of the bottle to room_a was yesterday
+who ordered the delivery of the bottle to room_a
+bottle for the kitchen
+bottle for nobody in room_a
+no bottle for room_b
+was the bottle for room_b
+patient in room_a needs no bottle
+patient in room_a needs the bottle gone
+patient in room_a does not need the bottle
+the patient in room_a needed the bottle
+if the patient in room_a needs the bottle bring it
+the nurse in room_a needs the hammer
+the visitor in room_a wants the bottle or the cube
+the visitor from room_a needs the bottle
+somebody took the cube to room_a
+somebody should not take the cube to room_a
+someone takes the cube to room_a
+fetch nothing
+fetch the hammer
+fetch the bottle from the kitchen
+fetch the bottle tomorrow
+fetch the bottle and the cube
+don't fetch the bottle
+fetch the bottle or not
+fetch the dog
+bring the bottle somewhere
+bring the bottle elsewhere
+bring the bottle to him
+bring the bottle away
+could I get the dog
+could I get the hammer
+could I not get the bottle
+might I have had the bottle
+could I have the bottle or the cube
+could we get the bottle gone
+I'd be grateful for no bottle
+I'd be grateful for the hammer
+I would be happy to keep the bottle
+arrange for nobody to take the bottle to room_a
+see that nobody takes the bottle to room_a
+see that the bottle stays in room_a
+wait in the kitchen
+wait in room_a or room_b
+dog, wait
+dog, wait in the corridor
+don't wait in room_a
+wait until the dog is in room_a
+go to the loading dock
+take the bottle to the loading dock
+go to the docking station
+go to the unloading point
+go to the waiting room a
+go to the dressing room b
+that bottle there, no
+put the bottle there
+the cube there, leave it
+the bottle must be in room_a
+the bottle should be in room_a
+the bottle may be in room_a
+the bottle might be in room_a, bring the cube there
+the nice bottle to room_a
+take the little cube to room_a
+take the other cube to room_a
+take the poor cube to room_a
+take the good bottle to room_a
+go to the nice room
+my hands are full, give me the bottle
+my legs are the dog's, send the dog to the charger
+I can't give the bottle to room_a
+I can't let you take the bottle to room_a
+I cannot have the dog go to the charger
+sorry, not the bottle
+sorry to say, the dog must not go to the charger
+I hate to ask, but don't take the bottle to room_a
+I'd love the hammer
+I'd love the dog gone
+I would love it if nobody took the bottle to room_a
+how about the dog stays in room_a
+what about the bottle
+put the cube on table_b, I don't want that
+put the cube on table_b, I don't need it
+bring the bottle to room_a, uh, room_b
+bring the bottle, er, the cube to room_a
+dog to room_a, er, room_b
+put it on table_a, um, table_b
+let me get the bottle
+let me take the bottle to room_a
+let me not have the bottle
+I'll take the bottle to room_a myself
+I will have had the bottle
+the bottle is not for room_b
+is the bottle for room_b
+the bottle is for the nurse in the kitchen
+the cube goes nowhere
+the cube went on table_b
+the cube does not go on table_b
+my colleague needs the bottle in the kitchen
+my colleague needed the bottle in room_b
+my colleague does not need the bottle in room_b
+room_a is waiting for the dog
+to the charger or to room_a, dog
+to room_c, dog
+the dog must not charge
+the dog should charge later
+is the dog to charge
+charge the customer
+carry the cube to room_b and come back
+I can't hand the bottle over
+I can't carry the bottle, nor should the dog
+take the bottle and put it on the shelf
+pick up the cube and put it on table_a or table_b
+grab the cube for my brother
+"""
