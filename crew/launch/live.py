@@ -29,7 +29,7 @@ from crew.proofs import ensure_proved
 from crew.signing import load_or_create_key
 from crew.supervisor import Exit, Supervisor
 
-READY_S = 20.0
+READY_S = 40.0
 RECORDER_S = 2.0
 """Wall time for which a crew that is up waits for its recorder to listen, so that a first request is drawn whole."""
 OPERATOR, ORCHESTRATOR = "operator", "orchestrator"

@@ -87,10 +87,10 @@ def running_crew(folder: Folder) -> Iterator[None]:
             stdin=subprocess.DEVNULL,
         )
     try:
-        deadline = time.monotonic() + 40
+        deadline = time.monotonic() + 90
         while "is up after" not in log.read_text():
             assert process.poll() is None, f"no crew: {log.read_text()}"
-            assert time.monotonic() < deadline, f"no crew within 40 s: {log.read_text()}"
+            assert time.monotonic() < deadline, f"no crew within 90 s: {log.read_text()}"
             time.sleep(0.05)
         yield
         process.send_signal(signal.SIGINT)

@@ -30,7 +30,7 @@ from crew.records import RECORDS, IntentRecord, Record
 
 CREW = Path(sys.executable).with_name("crew")
 NAME, OTHER = "air_ground", "humanoid_quadruped"
-UP_S = 40.0
+UP_S = 90.0
 MISSION_S = 120.0
 SHORT_DRIVE = "send the rover to (-3, -3)"
 FAR_DRIVE = "send the rover to (9, -5.5)"

@@ -12,6 +12,7 @@ from tests.integration.crew.harness import (
     FAR_DRIVE,
     SHORT_DRIVE,
     SHORT_SEARCH,
+    UP_S,
     Desk,
     Up,
     alive,
@@ -41,7 +42,7 @@ def demo_in_flight(desk: Desk) -> Up:
 
 def crew_up(desk: Desk) -> Up:
     up = desk.spawn("up", "--port", "0")
-    up.await_said("end: Ctrl-C", 40.0)
+    up.await_said("end: Ctrl-C", UP_S)
     return up
 
 
@@ -118,7 +119,7 @@ def half(desk: Desk) -> Iterator[Up]:
     )
     up = desk.spawn("up", str(mine), "--port", "0", "--speed", "max")
     try:
-        up.await_said("end: Ctrl-C", 60.0)
+        up.await_said("end: Ctrl-C", UP_S)
         yield up
     finally:
         up.end()
