@@ -6,8 +6,8 @@ from crew.bus.port import Qos
 from crew.cli.output import say
 from crew.cli.session import home, operator, run
 from crew.errors import UsageError, nearest
-from crew.launch.live import OPERATOR
 from crew.launch.ready import query_status
+from crew.launch.table import OPERATOR
 from crew.messages import ANSWER, Answer, CrewStatus, MissionStatus
 from crew.signing import load_or_create_key
 

@@ -6,8 +6,8 @@ from crew.cli.session import home, operator, run
 from crew.clock import WALL
 from crew.errors import BusError, UsageError, nearest
 from crew.keys import Keys
-from crew.launch.live import OPERATOR
 from crew.launch.ready import query_status
+from crew.launch.table import OPERATOR
 from crew.mailbox import Events, KeepLatest, Letter, letters
 from crew.messages import RobotEvent, RobotState, Stop
 from crew.release import signed_reset

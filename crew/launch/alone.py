@@ -10,11 +10,11 @@ from crew.access import ROBOT_PREFIX, Role
 from crew.authority import check
 from crew.errors import CrewError, UsageError, nearest
 from crew.home import Home, Running
-from crew.launch.live import OPERATOR, ORCHESTRATOR, new_run_folder
+from crew.launch.live import new_run_folder
 from crew.launch.options import LaunchOptions
 from crew.launch.single import InlineContext
 from crew.launch.site import resolve
-from crew.launch.table import process_table
+from crew.launch.table import OPERATOR, ORCHESTRATOR, Trust, process_table
 from crew.signing import load_or_create_key, load_public_key
 from crew.supervisor import Child
 
@@ -40,9 +40,9 @@ def child_of(role: str, options: LaunchOptions, home: Home, *, router: str, gues
         running=running_at(name, home, router, guests),
         run_folder=new_run_folder(options.runs, name) if decides or records else options.runs,
         home=home.path.absolute(),
-        epoch=home.next_epoch(name) if decides else 0,
-        operator_key=operator,
-        orchestrator_key=orchestrator,
+        trust=Trust(
+            epoch=home.next_epoch(name) if decides else 0, operator_key=operator, orchestrator_key=orchestrator
+        ),
         view_port=0 if records else None,
     )
     by_role = {_role(child, [r.name for r in rules.crew.robots]): child for child in children}

@@ -23,17 +23,14 @@ from crew.launch.options import LaunchOptions
 from crew.launch.ready import await_ready
 from crew.launch.reported import reported
 from crew.launch.site import resolve
-from crew.launch.table import RECORDER, free_tcp_port, process_table, roles
+from crew.launch.table import OPERATOR, RECORDER, Trust, free_tcp_port, process_table, roles
 from crew.messages import CrewStatus
 from crew.proofs import ensure_proved
-from crew.signing import load_or_create_key
 from crew.supervisor import Exit, Supervisor
 
 READY_S = 40.0
 RECORDER_S = 2.0
 """Wall time for which a crew that is up waits for its recorder to listen, so that a first request is drawn whole."""
-OPERATOR, ORCHESTRATOR = "operator", "orchestrator"
-"""Names of their signing keys."""
 UNSECURED = "UNSECURED: simulation only (--single-process: one process holds every role's key)"
 
 
@@ -96,9 +93,7 @@ async def live_crew(
             running=running,
             run_folder=run_folder,
             home=home.path.absolute(),
-            epoch=home.next_epoch(rules.crew.name),
-            operator_key=load_or_create_key(home.keys, OPERATOR).public,
-            orchestrator_key=load_or_create_key(home.keys, ORCHESTRATOR).public,
+            trust=Trust.anew(home, rules.crew.name),
             view_port=view_port,
         )
         if options.single_process:

@@ -4,24 +4,47 @@ import socket
 from collections.abc import Mapping
 from importlib.metadata import version
 from pathlib import Path
+from typing import Self
+
+import msgspec
 
 from crew.access import ROBOT_PREFIX, ROUTER, Role, identities
 from crew.actors.specs import PLANNER_KEYS, GatewaySpec, OrchestratorSpec, PlannerSpec, RecorderSpec, RobotActorSpec
 from crew.contracts.site import Crew, Rules
-from crew.home import Running
+from crew.home import Home, Running
 from crew.launch.options import LaunchOptions
 from crew.packed import pack
 from crew.router import RouterSpec
+from crew.signing import load_or_create_key
 from crew.sim.config import WorldConfig
 from crew.sim.spec import SimulationSpec
 from crew.supervisor import Child
 
+OPERATOR, ORCHESTRATOR = "operator", "orchestrator"
+"""Names of their signing keys."""
 RECORDER = "recorder"
 RECORDER_NICENESS = 5
 RECORDER_GRACE_S = 0.9
 """What a recording may take to be closed after Ctrl-C: all must be gone within 2 s."""
 RECORDER_EASE_S = 8.0
 """The same when a crew ends by itself: a recorder that is behind catches up."""
+
+
+class Trust(msgspec.Struct, frozen=True, kw_only=True):
+    """Whose signatures count in one run (Ed25519 public keys), and since which epoch."""
+
+    epoch: int
+    operator_key: bytes
+    orchestrator_key: bytes
+
+    @classmethod
+    def anew(cls, home: Home, crew: str) -> Self:
+        """With this home's keys, made if there are none, and an epoch that was never used before."""
+        return cls(
+            epoch=home.next_epoch(crew),
+            operator_key=load_or_create_key(home.keys, OPERATOR).public,
+            orchestrator_key=load_or_create_key(home.keys, ORCHESTRATOR).public,
+        )
 
 
 def process_table(
@@ -31,9 +54,7 @@ def process_table(
     running: Running,
     run_folder: Path,
     home: Path,
-    epoch: int,
-    operator_key: bytes,
-    orchestrator_key: bytes,
+    trust: Trust,
     view_port: int | None = None,
 ) -> list[Child]:
     """Every process of the crew, with what it is started with. Without `view_port` (0: no page) nothing is recorded."""
@@ -45,11 +66,11 @@ def process_table(
         link=running.link("orchestrator"),
         run_folder=str(run_folder),
         home=str(home),
-        epoch=epoch,
+        epoch=trust.epoch,
         version=version("robot-crew"),
         planner=options.planning.name,
         simulated=simulated,
-        operator_key=operator_key,
+        operator_key=trust.operator_key,
     )
     robots = [
         Child(
@@ -61,8 +82,8 @@ def process_table(
                 link=running.link(f"{ROBOT_PREFIX}{robot.name}"),
                 connection=robot.connection or f"udpin:127.0.0.1:{ports[robot.name]}",
                 simulated=simulated,
-                operator_key=operator_key,
-                orchestrator_key=orchestrator_key,
+                operator_key=trust.operator_key,
+                orchestrator_key=trust.orchestrator_key,
                 models=options.models,
             ),
         )

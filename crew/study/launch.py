@@ -21,13 +21,12 @@ from crew.contracts.site import Rules
 from crew.errors import UsageError
 from crew.home import Home, Running
 from crew.keys import Keys
-from crew.launch.live import OPERATOR, ORCHESTRATOR, READY_S
+from crew.launch.live import READY_S
 from crew.launch.options import LaunchOptions
 from crew.launch.ready import await_ready
 from crew.launch.single import SingleProcess
 from crew.launch.site import resolve
-from crew.launch.table import free_tcp_port, process_table, roles
-from crew.signing import load_or_create_key
+from crew.launch.table import OPERATOR, Trust, free_tcp_port, process_table, roles
 from crew.supervisor import Child
 
 UNENFORCED = "UNENFORCED: no gate, no second check, no geofence; simulation only, for the study"
@@ -66,9 +65,7 @@ async def study_crew(
         running=running,
         run_folder=run_folder,
         home=home.path.absolute(),
-        epoch=home.next_epoch(rules.crew.name),
-        operator_key=load_or_create_key(home.keys, OPERATOR).public,
-        orchestrator_key=load_or_create_key(home.keys, ORCHESTRATOR).public,
+        trust=Trust.anew(home, rules.crew.name),
     )
     async with AsyncExitStack() as stack:
         runner = await stack.enter_async_context(SingleProcess(run_folder))

@@ -10,7 +10,7 @@ from msgspec.structs import replace
 
 import crew
 from crew.contracts.snapshot import Point, ValueReading
-from crew.launch.live import OPERATOR
+from crew.launch.table import OPERATOR
 from crew.messages import ANSWER, Answer, MissionEvent, RobotValue
 from crew.signing import SigningKey, load_or_create_key
 from crew.wire import encode

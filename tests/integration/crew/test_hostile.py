@@ -22,7 +22,7 @@ from crew.bus.intruder import Intruder
 from crew.bus.port import Qos
 from crew.contracts.plan import Call, Plan, digest
 from crew.keys import Keys
-from crew.launch.live import OPERATOR, ORCHESTRATOR
+from crew.launch.table import OPERATOR, ORCHESTRATOR
 from crew.messages import Dispatch, MissionEvent, PlannerAsk, PlannerProposal, RobotEvent, Stop
 from crew.permit import permit
 from crew.records import IntentRecord

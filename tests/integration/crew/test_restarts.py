@@ -6,7 +6,7 @@ from collections.abc import AsyncIterator, Iterator
 import pytest
 
 from crew.bus.port import Qos
-from crew.launch.live import OPERATOR
+from crew.launch.table import OPERATOR
 from crew.messages import Stop, StopStatus
 from crew.records import NoteRecord
 from crew.release import signed_reset

@@ -10,7 +10,7 @@ from msgspec.structs import replace
 from crew.bus.port import Body, Qos
 from crew.clock import seconds_ns
 from crew.contracts.plan import ArgValue, digest
-from crew.launch.live import OPERATOR, ORCHESTRATOR
+from crew.launch.table import OPERATOR, ORCHESTRATOR
 from crew.library import load_rules
 from crew.messages import Dispatch, Reset, RobotEvent, Stop
 from crew.permit import permit

@@ -18,14 +18,13 @@ from crew.bus.port import Bus
 from crew.bus.zenoh import ZenohBus
 from crew.clock import Clock
 from crew.contracts.site import RobotSpec, Rules
-from crew.launch.live import OPERATOR, ORCHESTRATOR, new_run_folder
+from crew.launch.live import new_run_folder
 from crew.launch.options import LaunchOptions
 from crew.launch.ready import await_ready
 from crew.launch.single import InlineContext
 from crew.launch.site import resolve
-from crew.launch.table import free_tcp_port, process_table, roles
+from crew.launch.table import Trust, free_tcp_port, process_table, roles
 from crew.packed import unpack
-from crew.signing import load_or_create_key
 from crew.supervisor import Child, Supervisor
 from tests.integration.crew.harness import NAME, Desk, Watch, watching
 
@@ -154,9 +153,7 @@ async def crew_with_threads(desk: Desk, *names: str, speed: float = 0.0) -> Asyn
                 running=running,
                 run_folder=folder,
                 home=desk.home.path,
-                epoch=desk.home.next_epoch(NAME),
-                operator_key=load_or_create_key(desk.home.keys, OPERATOR).public,
-                orchestrator_key=load_or_create_key(desk.home.keys, ORCHESTRATOR).public,
+                trust=Trust.anew(desk.home, NAME),
             )
             supervisor = await stack.enter_async_context(Supervisor(folder, on_exit=lambda _: None))
             await supervisor.start([c for c in children if c.name not in names], ready_timeout_s=READY_S)
