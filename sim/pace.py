@@ -10,6 +10,8 @@ from crew.messages import ClockAck
 
 SILENT_S = 1.0
 """A participant that says nothing for so long of wall time drops out; its next word brings it back."""
+LOOKS = 4
+"""Its silence is heard out in as many looks: a pause of the whole machine is nobody's silence."""
 
 
 class Member(msgspec.Struct):
@@ -19,7 +21,8 @@ class Member(msgspec.Struct):
     datagrams: int
     idle: bool
     holding: bool
-    heard_ns: int
+    silent_s: float = 0.0
+    """Wall time that was spent waiting for its word."""
 
 
 class Lockstep:
@@ -41,13 +44,13 @@ class Lockstep:
         """Return when nobody is still working on slice `number`; `for_holders` minds those who withhold it as well."""
         self._hear(number)
         while waiting := [m for m in self.members.values() if m.slice < number and (for_holders or not m.holding)]:
-            oldest_ns = min(m.heard_ns for m in waiting)
-            left_s = SILENT_S - (WALL.now_ns() - oldest_ns) / 1e9
-            if left_s <= 0:
-                self._drop_silent(number)
-                continue
-            await WALL.race(self._acks.changed(), left_s)
+            look_s, began_ns = SILENT_S / LOOKS, WALL.now_ns()
+            await WALL.race(self._acks.changed(), look_s)
+            looked_s = min(look_s, (WALL.now_ns() - began_ns) / 1e9)
+            for member in waiting:
+                member.silent_s += looked_s
             self._hear(number)
+            self._drop_silent(number)
 
     @property
     def idle(self) -> bool:
@@ -68,12 +71,11 @@ class Lockstep:
             done = known.slice if known else ack.slice - 1
         else:
             done = ack.slice
-        self.members[ack.name] = Member(done, ack.datagrams, ack.idle, ack.holding, WALL.now_ns())
+        self.members[ack.name] = Member(done, ack.datagrams, ack.idle, ack.holding)
 
     def _drop_silent(self, number: int) -> None:
-        limit_ns = WALL.now_ns() - seconds_ns(SILENT_S)
         for name, member in list(self.members.items()):
-            if member.slice < number and member.heard_ns <= limit_ns:
+            if member.slice < number and member.silent_s >= SILENT_S:
                 del self.members[name]
                 self.dropped += 1
 

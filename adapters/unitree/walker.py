@@ -11,7 +11,7 @@ from crew.adapter import AdapterConfig, Place, Reading
 from crew.adapters.ground.occupancy import Disc, Ground, Spot
 from crew.adapters.ground.route import plan_route
 from crew.adapters.unitree.options import WalkerOptions
-from crew.adapters.unitree.robot import FALLEN_RAD, Robot
+from crew.adapters.unitree.robot import FALLEN_RAD, POLL_S, Robot
 from crew.adapters.unitree.run import Run
 from crew.adapters.unitree.steering import Velocity, along, sideways, wrap_rad
 from crew.adapters.unitree.telemetry import Sample, Seen, SportState, Telemetry
@@ -30,6 +30,8 @@ MOVING_MPS = 0.1
 STILL_MPS, STILL_RPS = 0.06, 0.15
 STILL_S = 0.4
 STOPS_S = 4.0
+LOOK_S = 2 * POLL_S
+"""One look at the robot tells of no longer a time, however late it comes."""
 PASS_M = 0.25
 """A way-point between two legs is passed, not stopped at, within this distance."""
 CLOSE_M, CLOSE_RAD = 0.04, 0.06
@@ -60,18 +62,24 @@ class Rest:
             self._seen.clear()
             return
         self._seen.append((seconds, state.speed_mps, state.yaw_speed))
-        while self._seconds - self._seen[0][0] >= STILL_S:
+        while self.seconds - self._seen[0][0] >= STILL_S:
             self._seen.popleft()
 
     @property
     def is_still(self) -> bool:
-        if self._seconds < STILL_S:
-            return False
-        speed, turn = (math.sqrt(sum(s[0] * s[axis] ** 2 for s in self._seen) / self._seconds) for axis in (1, 2))
-        return speed < STILL_MPS and turn < STILL_RPS
+        speed, turn = self.motion
+        return self.seconds >= STILL_S and speed < STILL_MPS and turn < STILL_RPS
 
     @property
-    def _seconds(self) -> float:
+    def motion(self) -> tuple[float, float]:
+        """m/s and rad/s, root mean square over what is remembered."""
+        seconds = self.seconds or math.inf
+        speed, turn = (math.sqrt(sum(s[0] * s[axis] ** 2 for s in self._seen) / seconds) for axis in (1, 2))
+        return speed, turn
+
+    @property
+    def seconds(self) -> float:
+        """For how long the motion was seen without a gap."""
         return sum(seen[0] for seen in self._seen)
 
 
@@ -147,28 +155,30 @@ class WalkerSkills:
 
     async def stop(self, run: Run) -> None:
         """Stop, again and again until it has stood still for a moment. A robot that has fallen lies still."""
-        start_ns = self.robot.clock.now_ns()
-        rest = Rest()
+        watched_s, rest = 0.0, Rest()
         while not rest.is_still:
-            if run.since_s(start_ns) > STOPS_S:
-                raise AdapterError(self._moving(), code="still_moving")
+            if watched_s > STOPS_S:
+                raise AdapterError(self._moving(rest), code="still_moving")
             self.send_stop()
             before_ns = self.robot.clock.now_ns()
             await run.tick()
+            looked_s = min(run.since_s(before_ns), LOOK_S)
+            watched_s += looked_s
             sample = self.robot.telemetry.sport
             fresh = sample is not None and sample.stamp_ns >= before_ns
-            rest.take(sample.value if sample is not None and fresh else None, run.since_s(before_ns))
+            rest.take(sample.value if sample is not None and fresh else None, looked_s)
 
-    def _moving(self) -> str:
+    def _moving(self, rest: Rest) -> str:
         """What was seen last, against what counts as still."""
         sample = self.robot.telemetry.sport
         if sample is None:
             return f"{self._config.robot}: no motion state {STOPS_S:g} s after StopMove"
         seen, age_s = sample.value, (self.robot.clock.now_ns() - sample.stamp_ns) / 1e9
+        speed, turn = rest.motion
         return (
-            f"{self._config.robot}: still moving {STOPS_S:g} s after StopMove: {seen.speed_mps:.2f} m/s, "
-            f"{abs(seen.yaw_speed):.2f} rad/s, seen {age_s:.2f} s ago; "
-            f"their root mean square over {STILL_S:g} s must be below {STILL_MPS:g} m/s and {STILL_RPS:g} rad/s"
+            f"{self._config.robot}: still moving {STOPS_S:g} s after StopMove: {speed:.2f} m/s and {turn:.2f} rad/s in the "
+            f"last {rest.seconds:.2f} s (last seen {age_s:.2f} s ago: {seen.speed_mps:.2f}, {abs(seen.yaw_speed):.2f}); "
+            f"below {STILL_MPS:g} m/s and {STILL_RPS:g} rad/s for {STILL_S:g} s counts as still"
         )
 
     async def _navigate(self, run: Run, name: str, places: Mapping[str, Place]) -> None:

@@ -1,6 +1,7 @@
 """The simulation waits for whoever works, never for whoever has not begun, and no longer than a second for the dead."""
 
 import asyncio
+import time
 from collections.abc import AsyncIterator, Awaitable
 from contextlib import AsyncExitStack
 
@@ -124,6 +125,31 @@ async def test_a_silent_participant_drops_out_and_comes_back_with_its_next_word(
     assert not await within(asyncio.shield(waiting), 0.05)
     await stage.ack(3)
     assert await within(waiting)
+
+
+async def test_what_was_before_the_tick_is_nobodys_silence(stage: Stage, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(pace_module, "SILENT_S", 0.4)
+    await stage.ack(1)
+    assert await within(stage.lockstep.wait(1, for_holders=True))
+    await asyncio.sleep(0.5)  # the simulation itself is held up
+    waiting = asyncio.ensure_future(stage.lockstep.wait(2, for_holders=True))
+    assert not await within(asyncio.shield(waiting), 0.05)
+    await stage.ack(2)
+    assert await within(waiting)
+    assert stage.lockstep.dropped == 0
+
+
+async def test_a_pause_of_the_whole_machine_is_nobodys_silence(stage: Stage, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(pace_module, "SILENT_S", 0.4)
+    await stage.ack(1)
+    assert await within(stage.lockstep.wait(1, for_holders=True))
+    waiting = asyncio.ensure_future(stage.lockstep.wait(2, for_holders=True))
+    await asyncio.sleep(0.02)
+    time.sleep(0.5)  # noqa: ASYNC251  (nobody runs)
+    await asyncio.sleep(0.02)
+    await stage.ack(2)
+    assert await within(waiting)
+    assert stage.lockstep.dropped == 0
 
 
 async def test_a_participant_that_holds_is_waited_for_longer_than_a_silent_one(
