@@ -190,6 +190,14 @@ FINITE: frozenset[str] = frozenset((
 """Verbs by which a clause is told and not asked for, behind a subject that is no robot."""
 
 
+def is_lost(said: str) -> bool:
+    """Whether this says of a person what a search is for: `got lost`, `has not come home`."""
+    return said in _LOST
+
+
+_LOST = frozenset(CLASSES["gone"].split("|"))
+
+
 def told_words() -> frozenset[str]:
     """Every word of the closed kinds: none of them is a slip."""
     return frozenset(w for said in CLASSES.values() for w in re.findall(r"[a-z']+", said))

@@ -146,6 +146,14 @@ quote: search the north half
 joke: rover to base
 task for the drone: rover to base
 what about the rover going to base
+find the man who is not lost
+find the man who lost the drone
+find the man who got lost in the village
+find the man who was found
+send the rover to the man who got lost
+search the north half once she is ready
+search the north half as soon as he is back
+send the rover to base once she is found
 is there any chance of the rover going to base
 report to base
 search the north half and report to base

@@ -12,7 +12,7 @@ FILES = {
     "requests_crowd.yaml": ("read", "unread"),
 }
 CREWS = {"air": "air_ground", "indoor": "humanoid_quadruped"}
-NEEDLESS = {"requests_voices.yaml": 0.031, "requests_people.yaml": 0.082, "requests_crowd.yaml": 0.087}
+NEEDLESS = {"requests_voices.yaml": 0.031, "requests_people.yaml": 0.082, "requests_crowd.yaml": 0.082}
 """The share of requests that could be carried out and are refused; one that is asked back counts half.
 
 What the reader makes of them now; docs/planner.md has what it made of them when it met them.
