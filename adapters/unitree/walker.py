@@ -177,8 +177,8 @@ class WalkerSkills:
         speed, turn = rest.motion
         return (
             f"{self._config.robot}: still moving {STOPS_S:g} s after StopMove: {speed:.2f} m/s and {turn:.2f} rad/s "
-            f"in the last {rest.seconds:.2f} s; below {STILL_MPS:g} m/s and {STILL_RPS:g} rad/s for {STILL_S:g} s counts "
-            f"as still (seen {age_s:.2f} s ago: {seen.speed_mps:.2f} m/s, {abs(seen.yaw_speed):.2f} rad/s)"
+            f"in the last {rest.seconds:.2f} s; below {STILL_MPS:g} m/s and {STILL_RPS:g} rad/s for {STILL_S:g} s "
+            f"counts as still (seen {age_s:.2f} s ago: {seen.speed_mps:.2f} m/s, {abs(seen.yaw_speed):.2f} rad/s)"
         )
 
     async def _navigate(self, run: Run, name: str, places: Mapping[str, Place]) -> None:
