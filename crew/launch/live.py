@@ -23,7 +23,7 @@ from crew.launch.options import LaunchOptions
 from crew.launch.ready import await_ready
 from crew.launch.reported import reported
 from crew.launch.site import resolve
-from crew.launch.table import OPERATOR, RECORDER, Trust, free_tcp_port, process_table, roles
+from crew.launch.table import OPERATOR, RECORDER, Trust, free_tcp_ports, process_table, roles
 from crew.messages import CrewStatus
 from crew.proofs import ensure_proved
 from crew.supervisor import Exit, Supervisor
@@ -78,15 +78,16 @@ async def live_crew(
     establish(home.certificates(rules.crew.name), roles(rules.crew))
     with progress() as tell:
         ensure_proved(rules, home, tell)
-    guests = f"tcp/127.0.0.1:{options.port or free_tcp_port()}"
+    guests_port, router_port, page_port = free_tcp_ports(3)
+    guests = f"tcp/127.0.0.1:{options.port or guests_port}"
     run_folder = new_run_folder(options.runs, rules.crew.name)
     exits: asyncio.Queue[Exit] = asyncio.Queue()
     async with AsyncExitStack() as stack:
         report = stack.enter_context(reported(run_folder, home))
-        endpoint = f"tls/127.0.0.1:{free_tcp_port()}"
+        endpoint = f"tls/127.0.0.1:{router_port}"
         running = stack.enter_context(home.claim(rules.crew.name, run_folder, endpoint, guests))
         _write_resolved(rules, options, run_folder)
-        view_port = free_tcp_port() if _records(options) else None
+        view_port = page_port if _records(options) else None
         children = process_table(
             rules,
             options,

@@ -2,6 +2,7 @@
 
 import socket
 from collections.abc import Mapping
+from contextlib import ExitStack
 from importlib.metadata import version
 from pathlib import Path
 from typing import Self
@@ -59,7 +60,8 @@ def process_table(
 ) -> list[Child]:
     """Every process of the crew, with what it is started with. Without `view_port` (0: no page) nothing is recorded."""
     packed = pack(rules)
-    ports = {robot.name: free_udp_port() for robot in rules.crew.robots}
+    names = [robot.name for robot in rules.crew.robots]
+    ports = dict(zip(names, free_udp_ports(len(names)), strict=True))
     simulated = rules.crew.sim is not None
     orchestrator = OrchestratorSpec(
         rules=packed,
@@ -157,15 +159,25 @@ def _simulation(rules: Rules, options: LaunchOptions, running: Running, ports: M
     return Child(name="simulation", module="crew.sim.process", spec=spec)
 
 
-def free_udp_port() -> int:
-    """A UDP port of loopback that nobody holds now."""
-    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
-        probe.bind(("127.0.0.1", 0))
-        return int(probe.getsockname()[1])
+def free_udp_ports(count: int) -> list[int]:
+    """UDP ports of loopback that nobody holds now, each another one."""
+    return _free_ports(socket.SOCK_DGRAM, count)
 
 
 def free_tcp_port() -> int:
     """A TCP port of loopback that nobody holds now."""
-    with socket.socket(socket.AF_INET, socket.SOCK_STREAM) as probe:
-        probe.bind(("127.0.0.1", 0))
-        return int(probe.getsockname()[1])
+    return free_tcp_ports(1)[0]
+
+
+def free_tcp_ports(count: int) -> list[int]:
+    """TCP ports of loopback that nobody holds now, each another one."""
+    return _free_ports(socket.SOCK_STREAM, count)
+
+
+def _free_ports(kind: socket.SocketKind, count: int) -> list[int]:
+    """All are held until the last is found: one by one, the same could be found twice."""
+    with ExitStack() as held:
+        probes = [held.enter_context(socket.socket(socket.AF_INET, kind)) for _ in range(count)]
+        for probe in probes:
+            probe.bind(("127.0.0.1", 0))
+        return [int(probe.getsockname()[1]) for probe in probes]

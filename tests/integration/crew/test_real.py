@@ -11,7 +11,7 @@ import pytest
 
 from crew.actors.recorder.rrd import FILE, is_whole
 from crew.launch.alone import running_at
-from crew.launch.table import free_tcp_port, free_udp_port
+from crew.launch.table import free_tcp_ports, free_udp_ports
 from crew.library import CREWS
 from crew.signing import load_or_create_key
 from crew.sim.config import WorldConfig
@@ -70,7 +70,7 @@ def desk(tmp_path: Path) -> Desk:
 
 @pytest.fixture
 def ports() -> dict[str, int]:
-    return {"iris": free_udp_port(), "tb3": free_udp_port()}
+    return dict(zip(("iris", "tb3"), free_udp_ports(2), strict=True))
 
 
 async def test_a_crew_with_real_connections_drives(desk: Desk, ports: dict[str, int]) -> None:
@@ -88,7 +88,8 @@ async def test_each_role_runs_by_itself_with_only_its_own_keys(desk: Desk, ports
     """As the units of a deployment start them: a state folder for each role, and one crew file."""
     file = crew_file(desk.folder, ports)
     assert desk.crew("certs", "init", str(file)).returncode == 0
-    router, guests = f"tls/127.0.0.1:{free_tcp_port()}", f"tcp/127.0.0.1:{free_tcp_port()}"
+    router_port, guests_port = free_tcp_ports(2)
+    router, guests = f"tls/127.0.0.1:{router_port}", f"tcp/127.0.0.1:{guests_port}"
     where = ("--router", router, "--guests", guests)
     with vehicles(ports), ExitStack() as stack:
         own = {role: _own_folder(desk, role) for role in ROLES}
