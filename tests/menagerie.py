@@ -73,7 +73,7 @@ def _arm(side: str, y: float) -> str:
     for number, (joint, axis, place) in enumerate(ARM):
         spot = f"0 {y} 0.27" if number == 0 else place
         opening += f'<body name="{side}_{joint}_link" pos="{spot}">{INERTIAL}'
-        opening += f'<joint name="{side}_{joint}_joint" axis="{axis}" range="-3 3"/>'
+        opening += f'<joint name="{side}_{joint}_joint" axis="{axis}" range="-3 3"/><geom size="0.03" group="3"/>'
         closing += "</body>"
     hand = '<geom type="mesh" mesh="right_rubber_hand"/>' if side == "right" else ""
     return f"{opening}{hand}{closing}"

@@ -71,8 +71,21 @@ def test_only_the_waist_and_the_right_arm_move_and_the_pelvis_is_held(model: Any
     assert mine == {*ARM_MOTORS.values(), "finger_left", "finger_right"}
     motors = {model.actuator(number).name for number in range(model.nu)}
     assert {f"g1/{joint}" for joint in mine} == {name for name in motors if name.startswith("g1/")}
-    hand = model.geom_bodyid.tolist().count(int(model.body("g1/right_wrist_yaw_link").id))
-    assert hand == 0, "the rubber hand is gone"
+    wrist = int(model.body("g1/right_wrist_yaw_link").id)
+    on_wrist = {int(model.geom_type[geom]) for geom, body in enumerate(model.geom_bodyid) if body == wrist}
+    assert on_wrist == {int(mujoco.mjtGeom.mjGEOM_SPHERE)}, "the rubber hand is gone"
+
+
+def test_the_arm_bears_its_weight_and_touches_all_but_itself(model: Any) -> None:
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    bodies = [model.body(int(body)).name for body in model.geom_bodyid]
+    assert not [pair for pair in data.contact.geom.tolist() if all(bodies[geom].startswith("g1/") for geom in pair)]
+    for body in ("g1/right_elbow_link", "g1/gripper", "g1/finger_left"):
+        assert model.body_gravcomp[model.body(body).id] == 1.0
+    for geom, body in enumerate(bodies):
+        if body == "g1/right_elbow_link":
+            assert model.geom_conaffinity[geom] == 1, "what comes near it is met"
 
 
 def test_a_joint_that_is_held_keeps_its_angle(folder: Path, tmp_path: Path) -> None:
