@@ -4,7 +4,6 @@ The acknowledgement is withheld while work is in flight here: a busy clock, or d
 """
 
 import asyncio
-import sys
 from collections.abc import Callable
 
 from crew.bus.port import Bus, Qos
@@ -19,43 +18,40 @@ LOST_AFTER_S = 0.5
 """Wall time after which a datagram of the vendor's link counts as lost."""
 BACK_S = 0.02
 """The same in the slice in which a link is back, the first of whose datagrams went nowhere."""
-WINDOW = 20
-"""Slices after which it is looked at anew how much was lost for good and how much was only late."""
+COUNT_AFTER = 20
+"""Slices after which what counts as lost is counted anew, for it may only have been late; each time twice as many."""
+COUNT_S = 0.02
+"""Wall time that such a count waits for the simulation, and then for what may still come."""
 TURNS = 3
 """Turns of the loop that timers and mailboxes get before a slice counts as done."""
 
 
 class Losses:
-    """How many datagrams of a link will never come, known from counts alone."""
+    """How many datagrams of a link will never come, as far as counts tell."""
 
     def __init__(self) -> None:
-        self._lost = 0
-        self._surplus = sys.maxsize
-        """The least that was received beyond what was awaited, over the slices of the window."""
+        self.lost = 0
         self._slices = 0
+        self._count_after = COUNT_AFTER
 
     def complete(self, expected: int, received: int) -> bool:
         """Whether everything that will ever come of `expected` datagrams has come."""
-        return received + self._lost >= expected
+        return received + self.lost >= expected
 
     def give_up(self, expected: int, received: int) -> None:
-        """What has not come yet counts as lost."""
-        self._lost = max(0, expected - received)
-        self._surplus, self._slices = sys.maxsize, 0
+        """What has not come yet counts as lost, until it is counted anew."""
+        self.lost = max(0, expected - received)
+        self._slices, self._count_after = 0, COUNT_AFTER
 
-    def review(self, expected: int, received: int) -> None:
-        """At the end of each slice. What was only late must not stand for what comes after it.
-
-        More is received than was sent before the tick where the simulation answers a command meanwhile, but not in
-        every slice of a window: what is over in all of them was counted as lost and has come.
-        """
-        if not self._lost:
-            return
-        self._surplus = min(self._surplus, received + self._lost - expected)
+    def is_due(self) -> bool:
+        """Asked once a slice: whether to count anew."""
         self._slices += 1
-        if self._slices == WINDOW:
-            self._lost -= min(max(0, self._surplus), self._lost)
-            self._surplus, self._slices = sys.maxsize, 0
+        return self.lost > 0 and self._slices >= self._count_after
+
+    def count(self, sent: int, received: int) -> None:
+        """What was sent and what has come, at a moment at which nothing was on its way."""
+        self.lost = max(0, sent - received)
+        self._slices, self._count_after = 0, 2 * self._count_after
 
 
 class Participant:
@@ -101,6 +97,8 @@ class Participant:
 
     async def _take_slice(self, tick: ClockTick) -> None:
         await self._await_datagrams(tick)
+        if self._losses.is_due():
+            tick = await self._count_anew(tick)
         self._clock.advance(tick.now_ns)
         for _ in range(TURNS):
             await turn()
@@ -120,7 +118,19 @@ class Participant:
         if not await WALL.race(arrived, BACK_S if was_down else LOST_AFTER_S):
             self._losses.give_up(expected, self._received)
             self._down_at = -1 if was_down else self._received
-        self._losses.review(expected, self._received)
+
+    async def _count_anew(self, tick: ClockTick) -> ClockTick:
+        """The tick to go on with. The simulation is a slice ahead and waits: its next tick tells all that it has sent.
+
+        Without it, what comes early from that slice could not be told from what came late.
+        """
+        await WALL.race(self._ticks.changed(), COUNT_S)
+        for letter in self._ticks.take():
+            tick = letter.message
+        sent = tick.datagrams.get(self._name, 0)
+        await WALL.race(self._hold(tick.slice, lambda: self._received >= sent, self._traffic), COUNT_S)
+        self._losses.count(sent, self._received)
+        return tick
 
     async def _is_down(self) -> bool:
         """Whether nothing has come since datagrams were given up; what waits in the socket is read first."""

@@ -32,6 +32,8 @@ STILL_S = 0.4
 STOPS_S = 4.0
 LOOK_S = 2 * POLL_S
 """One look at the robot tells of no longer a time, however late it comes."""
+FRESH_S = 4 * POLL_S
+"""A state that is older tells nothing of the present: telemetry does not come in step with the looks."""
 PASS_M = 0.25
 """A way-point between two legs is passed, not stopped at, within this distance."""
 CLOSE_M, CLOSE_RAD = 0.04, 0.06
@@ -165,7 +167,7 @@ class WalkerSkills:
             looked_s = min(run.since_s(before_ns), LOOK_S)
             watched_s += looked_s
             sample = self.robot.telemetry.sport
-            fresh = sample is not None and sample.stamp_ns >= before_ns
+            fresh = sample is not None and run.since_s(sample.stamp_ns) <= FRESH_S
             rest.take(sample.value if sample is not None and fresh else None, looked_s)
 
     def _moving(self, rest: Rest) -> str:

@@ -13,7 +13,7 @@ from crew.bus.memory import MemoryBus
 from crew.bus.port import Bus, Qos
 from crew.clock import WALL, SimClock
 from crew.keys import Keys
-from crew.lockstep import WINDOW, Losses, Participant
+from crew.lockstep import COUNT_AFTER, Participant
 from crew.mailbox import Events, Letter, letters
 from crew.messages import ClockAck, ClockTick
 from crew.sim import pace as pace_module
@@ -257,24 +257,50 @@ async def test_a_link_that_is_down_delays_one_slice_and_is_waited_for_again_once
         await ends(task)
 
 
-def test_a_datagram_that_was_only_late_does_not_stand_for_a_later_one() -> None:
-    losses = Losses()
-    losses.give_up(2, 1)
-    for number in range(WINDOW):
-        assert losses.complete(2 + number, 2 + number)
-        losses.review(2 + number, 2 + number)
-    assert not losses.complete(100, 99), "nothing is lost any more"
+async def test_a_datagram_that_was_only_late_does_not_stand_for_a_later_one(
+    stage: Stage, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(lockstep_module, "LOST_AFTER_S", 0.1)
+    received = 1
+    follower = Participant(stage.robot, KEYS, "iris", stage.clock, counts=lambda: (0, received))
+    task = asyncio.ensure_future(follower.run())
+    try:
+        assert (await stage.next_ack()).slice == -1
+        stage.tick(1, datagrams=2)
+        assert (await stage.next_ack()).slice == 1, "the second is given up"
+        monkeypatch.setattr(lockstep_module, "LOST_AFTER_S", 60.0)
+        for number in range(2, COUNT_AFTER + 2):  # it came, and the others in step: one of them could be missing
+            received = number + 1
+            stage.tick(number, datagrams=number + 1)
+            assert (await stage.next_ack()).slice == number
+        stage.tick(COUNT_AFTER + 2, datagrams=COUNT_AFTER + 3)
+        assert (await stage.next_ack()).holding, "nothing is lost any more"
+    finally:
+        await ends(task)
 
 
-def test_an_answer_that_comes_early_does_not_make_up_for_what_was_lost() -> None:
-    """In some slices of a window, the simulation has already answered when the slice is counted."""
-    losses = Losses()
-    losses.give_up(10, 7)
-    for number in range(1, 3 * WINDOW):
-        early = 2 if number % 3 else 0
-        losses.review(10 + number, 7 + number + early)
-    assert losses.complete(100, 97)
-    assert not losses.complete(100, 96)
+async def test_what_the_next_slice_sends_early_does_not_make_up_for_what_was_lost(
+    stage: Stage, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The simulation is a slice ahead: its next datagrams may be here before the tick that counts them."""
+    monkeypatch.setattr(lockstep_module, "LOST_AFTER_S", 0.1)
+    monkeypatch.setattr(lockstep_module, "COUNT_AFTER", 1)
+    monkeypatch.setattr(lockstep_module, "COUNT_S", 1.0)
+    received = 0
+    follower = Participant(stage.robot, KEYS, "iris", stage.clock, counts=lambda: (0, received))
+    task = asyncio.ensure_future(follower.run())
+    try:
+        assert (await stage.next_ack()).slice == -1
+        stage.tick(1, datagrams=2)
+        await asyncio.sleep(0.3)  # two are lost; the count is on
+        received = 2  # of slice 2
+        stage.tick(2, datagrams=4)
+        while (done := await stage.next_ack()).holding:
+            pass
+        assert done.slice == 2
+        assert follower._losses.lost == 2
+    finally:
+        await ends(task)
 
 
 async def test_a_link_that_is_back_in_the_middle_of_a_slice_holds_nobody_up(
