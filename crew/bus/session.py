@@ -5,7 +5,6 @@ them in `asyncio.to_thread`.
 """
 
 import json
-import os
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -21,11 +20,6 @@ BLOCKED_PUT_LIMIT_US = 500_000
 """How long a blocking put may wait for a stuck reader before Zenoh closes that link."""
 LEASE_MS = 2000
 """A peer that says nothing for so long is gone (a process that dies is noticed at once)."""
-THREADS = "(rx: (handover: app), acc: (handover: app), app: (worker_threads: 2))"
-"""Zenoh's threads, in its own notation. What waits for a socket reads it as well: else each message wakes two threads.
-
-Writing keeps a thread of its own: a reader that waits for room to pass a message on must not be who makes the room.
-"""
 
 
 def open_session(link: Link, *, timeout_s: float = CONNECT_TIMEOUT_S, restrained: bool = True) -> zenoh.Session:
@@ -33,7 +27,6 @@ def open_session(link: Link, *, timeout_s: float = CONNECT_TIMEOUT_S, restrained
 
     Without `restrained` it keeps no rules of its own: for trying what the router forbids.
     """
-    _set_threads()
     settings = {
         **_common(),
         "mode": "client",
@@ -59,7 +52,6 @@ def open_router(link: Link, robots: Sequence[str], *, guests: str = "") -> zenoh
 
     UsageError if an address cannot be listened on, or the certificate is at fault.
     """
-    _set_threads()
     settings = router_settings(link, robots, guests=guests)
     endpoints = settings["listen"]["endpoints"]
     try:
@@ -86,11 +78,6 @@ def router_settings(link: Link, robots: Sequence[str], *, guests: str = "") -> d
         "transport/link/tls": _tls(link, "listen"),
         "access_control": router_access(link.crew, robots),
     }
-
-
-def _set_threads() -> None:
-    """Read by Zenoh once, when a process opens its first session; there is no other way to set it."""
-    os.environ.setdefault("ZENOH_RUNTIME", THREADS)
 
 
 def _common() -> dict[str, Any]:

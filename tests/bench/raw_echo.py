@@ -1,7 +1,6 @@
 """A process that answers raw Zenoh samples with raw Zenoh samples: the floor that the actor layer is compared with."""
 
 import asyncio
-import os
 
 import msgspec
 import zenoh
@@ -9,9 +8,6 @@ import zenoh
 from crew.bus.link import Link
 from crew.bus.session import open_session
 from crew.process import ChildContext, run_child
-
-STOCK_THREADS = "(rx: (worker_threads: 2))"
-"""Zenoh's own choice, here and where the raw samples come from: the yardstick is Zenoh as it comes."""
 
 
 class EchoSpec(msgspec.Struct, frozen=True):
@@ -24,7 +20,6 @@ class EchoSpec(msgspec.Struct, frozen=True):
 
 async def main(context: ChildContext) -> None:
     """Echo until asked to stop."""
-    os.environ["ZENOH_RUNTIME"] = STOCK_THREADS
     spec = context.spec(EchoSpec)
     session = await asyncio.to_thread(open_session, spec.link)
     publisher = session.declare_publisher(

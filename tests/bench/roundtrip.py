@@ -31,7 +31,7 @@ from crew.router import RouterSpec
 from crew.signing import SigningKey
 from crew.supervisor import Child, Supervisor
 from crew.wire import encode
-from tests.bench.raw_echo import STOCK_THREADS, EchoSpec
+from tests.bench.raw_echo import EchoSpec
 from tests.bench.robot_child import ROBOT, IdleSpec
 from tests.open_router import OpenRouterSpec
 
@@ -91,7 +91,6 @@ async def _measure(rounds: int) -> Times:
         ]
         async with Supervisor(Path(folder), on_exit=print) as supervisor:
             await supervisor.start(children, ready_timeout_s=20.0)
-            os.environ["ZENOH_RUNTIME"] = STOCK_THREADS
             async with ZenohBus(link(ORCHESTRATOR)) as bus:
                 sessions = [await asyncio.to_thread(open_session, way) for way in (floor, link(ORCHESTRATOR))]
                 raw, same = RawPing(sessions[0], *OPEN_KEYS), RawPing(sessions[1], *LOCKED_KEYS)
