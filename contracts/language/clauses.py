@@ -28,6 +28,7 @@ from crew.contracts.language.stories import (
     LABELS,
     NEW,
     OUT_OF_REACH,
+    OWN_CHOICE,
     POSSESSORS,
     SPEAKS,
     SUBJECTS,
@@ -135,6 +136,8 @@ def _harmless(tokens: list[Token], clause: Clause, lexicon: Lexicon, kept: dict[
         return None
     whole = range(clause.start, clause.after)
     if _fits(HARMLESS, said) and not _names(tokens, clause, lexicon, but=MentionKind.VALUE):
+        return whole
+    if clause.whole and _fits(OWN_CHOICE, said):
         return whole
     value = _person(lexicon)
     if value and _fits(ABOUT_A_PERSON, said) and not _names(tokens, clause, lexicon, but=MentionKind.VALUE):

@@ -12,7 +12,7 @@ from crew.contracts.language.inflect import Form, inflections
 from crew.contracts.language.mention import MentionKind, StepRef
 from crew.contracts.language.naming import entities
 from crew.contracts.language.rewrites import wording_words
-from crew.contracts.language.spelling import Vocabulary
+from crew.contracts.language.spelling import SHORTEST, Vocabulary
 from crew.contracts.language.stories import told_words
 from crew.contracts.language.synonyms import also
 from crew.contracts.language.templates import fixed_phrases, opening_phrases
@@ -67,6 +67,7 @@ class Lexicon(msgspec.Struct, frozen=True, kw_only=True, dict=True):
             known=frozenset(word for e in entries for word in e.words) | SINGLE_WORDS | wording_words() | told_words(),
             names=frozenset(word for found in self.names.values() for e in found for word in e.words),
             silent=frozenset(word for word, e in single.items() if e.role in SILENT),
+            pronouns=frozenset(w for w, e in single.items() if e.role is Role.PRONOUN and len(w) >= SHORTEST),
             turning=frozenset(word for word, e in single.items() if e.role in TURNING),
         )
 

@@ -8,6 +8,7 @@ from crew.contracts.language.entry import Entry, Words, words_of
 from crew.contracts.language.inflect import plurals
 from crew.contracts.language.mention import MentionKind
 from crew.contracts.language.stories import PERSON_NOUNS, PERSON_PLURALS
+from crew.contracts.language.synonyms import places
 from crew.contracts.language.words import IN_NEED, NICKNAMES, REQUESTER, ROBOT_WORDS, SELF_WORDS, ZONE_NOUNS
 from crew.contracts.plan import SlotValue, Zone
 from crew.contracts.site import Rules
@@ -17,8 +18,10 @@ def entities(rules: Rules) -> Iterator[Entry]:
     """Robots, classes of robots, places, objects and run-time values, by name and alias."""
     yield from _robots(rules)
     crew = rules.crew
+    taken = _taken(rules)
     for place in crew.locations:
-        yield from _named(MentionKind.LOCATION, place.name, place.name, place.aliases)
+        called = {name.replace("_", " ") for name in (place.name, *place.aliases)}
+        yield from _named(MentionKind.LOCATION, place.name, place.name, (*place.aliases, *places(called, taken)))
     for part in rules.parts.values():
         yield from _named(MentionKind.LOCATION, part.name, part.name, part.aliases)
     for zone in crew.zones:
@@ -35,6 +38,19 @@ def entities(rules: Rules) -> Iterator[Entry]:
             yield from (replace(entries[0], words=(many,), plural=True) for many in PERSON_PLURALS)
     for zone in crew.zones:
         yield from _zone_noun_variants(zone.name, zone.zone, (zone.name, *zone.aliases))
+
+
+def _taken(rules: Rules) -> frozenset[str]:
+    """Every name and alias that the crew file and the kinds give."""
+    crew = rules.crew
+    named = [(thing.name, thing.aliases) for thing in crew.robots]
+    named += [(thing.name, thing.aliases) for thing in crew.locations]
+    named += [(thing.name, thing.aliases) for thing in crew.zones]
+    named += [(thing.name, thing.aliases) for thing in crew.objects]
+    named += [(thing.name, thing.aliases) for thing in crew.values]
+    named += [(thing.name, thing.aliases) for thing in rules.parts.values()]
+    named += [(thing.name, thing.aliases) for thing in rules.kinds.values()]
+    return frozenset(" ".join(words_of(phrase)) for name, aliases in named for phrase in (name, *aliases))
 
 
 def _variants(phrase: str) -> Iterator[Words]:
@@ -75,7 +91,7 @@ def _zone_noun_variants(name: str, zone: Zone, phrases: Iterable[str]) -> Iterat
 
 
 def _robots(rules: Rules) -> Iterator[Entry]:
-    crew = rules.crew
+    crew, taken = rules.crew, _taken(rules)
     for robot in crew.robots:
         for words in dict.fromkeys(w for phrase in (robot.name, *robot.aliases) for w in _variants(phrase)):
             yield Entry(words=words, kind=MentionKind.ROBOT, name=robot.name, values=(robot.name,))
@@ -83,7 +99,7 @@ def _robots(rules: Rules) -> Iterator[Entry]:
         members = tuple(r.name for r in crew.robots if r.kind == kind.name)
         if members:
             called = (kind.name, *kind.aliases)
-            nicknames = (n for name in called for n in NICKNAMES.get(name, ()))
+            nicknames = (n for name in called for n in NICKNAMES.get(name, ()) if n not in taken)
             yield from _class_words((*called, *nicknames), members)
     if crew.robots:
         yield from _class_words((*ROBOT_WORDS, *NICKNAMES["robot"]), tuple(r.name for r in crew.robots))

@@ -11,6 +11,9 @@ from crew.contracts.language.words import AFFECTIVE, PLACE_NOUNS, ZONE_NOUNS, Ro
 from crew.contracts.plan import Zone
 
 _OPENS = PREPOSITIONS | {Role.DETERMINER, Role.QUANTIFIER}
+_FINDING = frozenset((
+    "find", "locate", "look", "search", "track down", "discover", "detect", "seek out", "hunt down", "hunt for",
+))  # fmt: skip
 _NO_ARTICLE = frozenset((Role.DETERMINER, Role.QUANTIFIER))
 _PLACES = (MentionKind.VALUE, MentionKind.LOCATION, MentionKind.OBJECT)
 
@@ -41,9 +44,18 @@ def directions(pieces: list[Piece], tokens: list[Token]) -> None:
             partner = before(pieces, pieces.index(previous), _NO_ARTICLE | {Role.FILLER})
             if partner is not None and partner.kind is piece.kind:
                 piece.direction = partner.direction  # "to room_a and room_b"
-        if piece.is_robot and role in (Role.TO, Role.AT, Role.NEAR, Role.FROM):
+        missed = piece.is_robot and previous is not None and _looked_for(pieces, at, previous)
+        if missed or (piece.is_robot and role in (Role.TO, Role.AT, Role.NEAR, Role.FROM)):
             piece.become_unknown(piece.first, piece.after)
             piece.name = " ".join(t.norm for t in tokens[piece.first : piece.after])
+
+
+def _looked_for(pieces: list[Piece], at: int, previous: Piece) -> bool:
+    """`find the helicopter`, `look for the drone`: no robot is told to do that, one is to be found."""
+    if pieces[at - 1].role is not Role.DETERMINER:
+        return False
+    verb = before(pieces, pieces.index(previous)) if previous.role is Role.FOR else previous
+    return verb is not None and verb.is_action and verb.norm in _FINDING and verb.form is Form.BASE
 
 
 def hosts(pieces: list[Piece], lexicon: Lexicon) -> None:

@@ -211,6 +211,8 @@ def _shared_subjects(pieces: list[Piece]) -> None:
 
 def _governor_of_robot(pieces: list[Piece], at: int, last: Piece | None) -> Piece | None:
     previous, following = before(pieces, at), behind(pieces, at, _PASSED)
+    if following is not None and following.role is Role.THEN and _opens(previous):
+        following = behind(pieces, pieces.index(following), _PASSED)  # "and the rover could then go to them"
     if previous is not None and previous.is_action:
         return previous
     purpose = at + 1 < len(pieces) and pieces[at + 1].role is Role.TO
@@ -226,6 +228,10 @@ def _governor_of_robot(pieces: list[Piece], at: int, last: Piece | None) -> Piec
         partner = before(pieces, pieces.index(previous))
         return partner.governor if partner is not None and partner.is_robot else None
     return None
+
+
+def _opens(previous: Piece | None) -> bool:
+    return previous is not None and previous.role in (Role.AND, Role.PUNCTUATION)
 
 
 def _called(pieces: list[Piece], at: int, previous: Piece | None) -> bool:

@@ -5,7 +5,15 @@ from typing import NamedTuple
 from crew.contracts.language.lexicon import Lexicon
 from crew.contracts.language.mention import Ambiguity, Unread
 from crew.contracts.language.slips import DOUBTFUL, LOOKED_UP
-from crew.contracts.language.spelling import SHORTEST, Vocabulary, near_any, recognised, swapped_short, within_one
+from crew.contracts.language.spelling import (
+    SHORTEST,
+    Vocabulary,
+    near_any,
+    recognised,
+    swapped,
+    swapped_short,
+    within_one,
+)
 from crew.contracts.language.tokens import Shape, Token
 
 SHORTEST_SILENT = 3
@@ -34,6 +42,8 @@ def respell(text: str, tokens: list[Token], lexicon: Lexicon) -> Respelled:
             out.doubts.append(Ambiguity(f"'{token.norm}' may be a slip of '{turn}'", span))
         silent = recognised(token.norm, words.silent, SHORTEST_SILENT)
         meant = silent or recognised(token.norm, words.names, SHORTEST) or swapped_short(token.norm, words.names)
+        if meant is None:
+            meant = next((w for w in sorted(words.pronouns) if swapped(token.norm, w)), None)
         if meant is not None and silent is None:
             shown = Unread(text[slice(*span)], span, meant)
             (out.sure if _sure(text, token, meant, words) else out.asked).append(shown)
@@ -42,10 +52,15 @@ def respell(text: str, tokens: list[Token], lexicon: Lexicon) -> Respelled:
 
 
 def _sure(text: str, token: Token, meant: str, words: Vocabulary) -> bool:
-    """Whether a slip can be nothing else: a long enough word that was looked up, no name, and no part of one."""
+    """Whether a slip can be nothing else: a word that was looked up, no name, and no part of one.
+
+    Of a word of four letters, only two that were swapped count.
+    """
     raw = text[token.start : token.end]
     begins = not text[: token.start].rstrip() or text[: token.start].rstrip()[-1] in ".!?:\n"
     plain = raw.islower() or (begins and raw[1:].islower())
     joined = text[token.end : token.end + 1] in ("_", "-") or text[token.start - 1 : token.start] in ("_", "-")
     looked_up = meant in LOOKED_UP and token.norm not in DOUBTFUL
+    if len(meant) == SHORTEST and not swapped(token.norm, meant):
+        return False
     return plain and not joined and looked_up and not any(within_one(token.norm, turn) for turn in words.turning)

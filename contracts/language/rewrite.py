@@ -7,18 +7,23 @@ from crew.contracts.language.figures import is_numeral
 from crew.contracts.language.lexicon import Lexicon, match
 from crew.contracts.language.lookahead import ARTICLES
 from crew.contracts.language.mention import ROBOT_KINDS, MentionKind
+from crew.contracts.language.restated import restated
 from crew.contracts.language.rewrites import (
     ARROWS,
     DONE_AT,
     HESITATIONS,
     LEADS_ON,
+    SENDING,
     WAITING,
     wordings,
+    wordings_before_goals,
     wordings_before_objects,
     wordings_before_places,
     wordings_before_robots,
+    wordings_before_zones,
 )
 from crew.contracts.language.tokens import Shape, Token
+from crew.contracts.language.told import told
 
 Wordings = Mapping[str, Sequence[tuple[Words, Words]]]
 _GRABBED: tuple[Words, ...] = (("grab",), ("pick", "up"), ("get",), ("go", "get"), ("take",))
@@ -30,13 +35,19 @@ def rewritten(tokens: list[Token], lexicon: Lexicon) -> list[Token]:
     """The tokens of a request in plainer words."""
     out: list[Token] = []
     at = 0
-    tokens = [t for k, t in enumerate(tokens) if not _hesitation(tokens, k, lexicon)]
+    tokens = restated(tokens, lexicon)
+    tokens = told([t for k, t in enumerate(tokens) if not _hesitation(tokens, k, lexicon)], lexicon)
     while at < len(tokens):
         words, plain = (
             _arrow(tokens, at)
             or (_waits(tokens, lexicon) and _before_name(tokens, at, lexicon, _WAITED, MentionKind.LOCATION))
             or _before_name(tokens, at, lexicon, wordings_before_objects(), MentionKind.OBJECT)
-            or _before_name(tokens, at, lexicon, wordings_before_places(), MentionKind.LOCATION)
+            or (
+                _ordered(tokens, at)
+                and _before_name(tokens, at, lexicon, wordings_before_places(), MentionKind.LOCATION)
+            )
+            or _before_name(tokens, at, lexicon, wordings_before_zones(), MentionKind.ZONE)
+            or _before_goal(tokens, at, lexicon)
             or _done_at(tokens, at, lexicon)
             or _for_me(tokens, at, lexicon)
             or _moved_robot(tokens, at, lexicon)
@@ -102,6 +113,21 @@ def _before_name(
     return None
 
 
+def _ordered(tokens: list[Token], at: int) -> bool:
+    """Not `we leave for base`: who speaks may tell of themselves."""
+    return not at or tokens[at - 1].norm not in ("i", "we", "they", "he", "she")
+
+
+def _before_goal(tokens: list[Token], at: int, lexicon: Lexicon) -> tuple[int, Words] | None:
+    """`respond to 7.5, 1.5`: wordings that hold only before a place's name or a point."""
+    for words, plain in wordings_before_goals().get(tokens[at].norm, ()):
+        end = at + len(words)
+        figures = end < len(tokens) and (is_numeral(tokens, end) or tokens[end].norm in ("x", "(", "point"))
+        if stands_all(tokens, at, words) and figures:
+            return len(words), plain
+    return _before_name(tokens, at, lexicon, wordings_before_goals(), MentionKind.LOCATION)
+
+
 def _done_at(tokens: list[Token], at: int, lexicon: Lexicon) -> tuple[int, Words] | None:
     """`the dog should charge`: to go to the place where that is done."""
     for place, verbs in DONE_AT.items():
@@ -129,13 +155,15 @@ def _for_me(tokens: list[Token], at: int, lexicon: Lexicon) -> tuple[int, Words]
 
 def _moved_robot(tokens: list[Token], at: int, lexicon: Lexicon) -> tuple[int, Words] | None:
     """`take the dog to the charger`, `park the rover at base`: to send it there."""
-    if "send" not in lexicon.names or tokens[at].norm not in wordings_before_robots():
+    summoned = tokens[at].norm in SENDING
+    if "send" not in lexicon.names or not (summoned or tokens[at].norm in wordings_before_robots()):
         return None
     named = at + 1 + (at + 1 < len(tokens) and tokens[at + 1].norm in ARTICLES)
     name = match(lexicon.names, tokens, named) if named < len(tokens) else None
     end = named + (len(name.words) if name is not None and name.kind in ROBOT_KINDS else len(tokens))
-    end += end < len(tokens) and tokens[end].norm == "back"
-    return (1, ("send",)) if end < len(tokens) and tokens[end].norm in LEADS_ON else None
+    end += end < len(tokens) and tokens[end].norm in ("back", "over")
+    leads = ("to", "here") if summoned else LEADS_ON
+    return (1, ("send",)) if end < len(tokens) and tokens[end].norm in leads else None
 
 
 def _there_and(tokens: list[Token], at: int, lexicon: Lexicon) -> tuple[int, Words] | None:

@@ -13,6 +13,11 @@ _IF = "(if|whether)"
 _ANYONE = "(anyone|anybody|someone|somebody|anyone out|anybody out|someone out|somebody out)"
 _IS = "(there is|there's|there are|there might be|there could be)"
 
+_EYES = "(eyes on|eyes upon|sight of|a visual on|visual on|a visual of|visual contact with|eyes-on|a sighting of)"
+_WHEN = "(once|when|after|as soon as)"
+_WHO = ("it", "you", "he", "she", "they", "the drone")
+_SEES = "(spots|sights|sees|detects|spot|sight|see|detect)"
+
 REWRITES: tuple[tuple[str, str], ...] = (
     (
         f"(see|check|look|find out|make sure|tell me|let me know|have a look|take a look) {_IF} {_IS} {_ANYONE}",
@@ -82,6 +87,31 @@ REWRITES: tuple[tuple[str, str], ...] = (
     ("(move|get|bring|take|drive) (yourself|itself|himself|yourselves) to", "go to"),
     ("to (that|this|the same) (position|location|spot|place|point)", "there"),
     ("(follow|follow on|come along|come up|move up|close up) to", "go to"),
+    ("(i|we) require", "i need"),
+    ("require", "need"),
+    (
+        "(you're|you are|your presence is) (wanted|needed|required|requested|expected|awaited) (here|over here)",
+        "come here",
+    ),
+    ("(come|go|return|get over) (by|at|beside|next to|over to|up to) me", "come to me"),
+    ("(at|to) (my|our) (position|location|current position|current location)", "to me"),
+    (f"(has|have|has got|have got|has had) {_EYES}", "has found"),
+    *(
+        (f"{_WHEN} {who} (gets|catches|lays|makes|gains|obtains|establishes) {_EYES}", f"once {who} finds")
+        for who in _WHO
+    ),
+    (f"(get|lay|gain|obtain|establish) {_EYES}", "find"),
+    ("(has|have) (spotted|sighted|seen|detected|identified)", "has found"),
+    *((f"{_WHEN} {who} {_SEES}", f"once {who} finds") for who in _WHO),
+    (
+        "fly (around|about|round|across|through|all over|all around) (everywhere|the whole area|the entire area)",
+        "fly over everywhere",
+    ),
+    ("(mount|stage|launch|set up|run) (a|the|another) search", "do a search"),
+    ("seek (the|a|our|my|that|this)", "find the"),
+    ("(reach|slip) me", "hand me"),
+    ("call off everything", "abort everything"),
+    ("fly (the|your|a) (search|sweep|survey)", "do a search"),
 )
 """What is said, and what it is read as."""
 
@@ -89,8 +119,15 @@ BEFORE_A_PLACE: tuple[tuple[str, str], ...] = (
     ("(down|up|back down|back up) to", "to"),
     ("back", "to"),
     ("(goes|belongs|should go|must go|has to go|needs to go) (on|onto)", "put on"),
+    ("(set off|set out|start out|start off|leave|depart|make) for", "go to"),
 )
 """The same, only in front of a place's name."""
+
+BEFORE_A_GOAL: tuple[tuple[str, str], ...] = (
+    ("(you're|you are|your presence is) (wanted|needed|required|requested|expected|awaited) (at|in|by)", "go to"),
+    ("respond to", "go to"),
+)
+"""The same, only in front of a place's name or a point."""
 
 DONE_AT: dict[str, tuple[str, ...]] = {
     "base": ("rtb",),
@@ -106,17 +143,64 @@ DONE_AT: dict[str, tuple[str, ...]] = {
 }
 """Verbs, at the end of a clause, for going to a place of this name, in a crew that has it."""
 
-BEFORE_A_ROBOT: tuple[tuple[str, str], ...] = (("(take|bring|get|position|order|park|station|route)", "send"),)
+BEFORE_A_ROBOT: tuple[tuple[str, str], ...] = (
+    ("(take|bring|get|position|order|park|station|route|put|place|deploy|redeploy|reposition|relocate)", "send"),
+)
 """The same, only in front of a robot's name that a goal follows."""
 LEADS_ON: frozenset[str] = frozenset(("to", "at", "here", "into", "in"))
 """What opens that goal."""
+SENDING: frozenset[str] = frozenset((
+    "recall", "redirect", "reroute", "divert", "transfer", "shift", "steer", "manoeuvre", "maneuver", "shuttle", "pull",
+    "withdraw", "summon", "call", "assign", "pilot", "usher",
+))  # fmt: skip
+"""The same, where the goal opens with `to` or `here`: `recall the rover at base` may be no order at all."""
 
 BEFORE_AN_OBJECT: tuple[tuple[str, str], ...] = (
     ("(might|may|can|could) (i|we) (have|get|please have|please get|just have|just get|possibly have)", "could i have"),
+    ("(retrieve|collect|obtain|procure|go and get|go and fetch|go and collect|run and get|go grab)", "fetch"),
+    ("(cart|shuttle|ferry|courier|lug|tote|schlep)", "carry"),
+    ("(rest|stick|plonk|plop|deposit)", "put"),
+    ("(clutch|grip|clasp)", "hold"),
     ("i wonder if (i|we) (might|may|can|could) (have|get)", "could i have"),
     ("(let me have|let us have|i'll have|i'll take|i will have|i will take|we'll have|we'll take)", "could i have"),
 )
 """The same, only in front of an object's name."""
+
+BEFORE_A_ZONE: tuple[tuple[str, str], ...] = (
+    (
+        "(probe|examine|trawl|recce|look through|hunt through|search through|sweep over|quarter|rake|scrutinise|"
+        "scrutinize)",
+        "search",
+    ),
+)
+"""The same, only in front of a zone's name."""
+
+RAISING: frozenset[str] = frozenset(("get", "take", "put", "bring", "send", "fly", "lift", "raise"))
+UP_IN: tuple[Words, ...] = tuple(
+    tuple(said.split())
+    for said in (
+        "up in the air", "up into the air", "in the air", "into the air", "up in the sky", "in the sky", "into the sky",
+        "off the ground", "airborne", "aloft", "flying", "up there", "up",
+    )
+)  # fmt: skip
+"""Verbs and what stands behind a robot's name, for its taking off; the longest first."""
+LOWERING: frozenset[str] = frozenset(("put", "set", "get", "bring", "place"))
+DOWN_ON: tuple[Words, ...] = tuple(
+    tuple(said.split())
+    for said in (
+        "back down on the ground", "back on the ground", "down on the ground", "on the ground", "onto the ground",
+        "back down", "down",
+    )
+)  # fmt: skip
+"""The same for its landing."""
+TASKING: frozenset[str] = frozenset(("task", "charge", "entrust", "trust"))
+"""Verbs for giving a robot something to do: `task the drone with a search`."""
+ASSIGNING: frozenset[str] = frozenset((
+    "assign", "detail", "commit", "allocate", "appoint", "deploy", "employ", "task", "set", "require", "request",
+))  # fmt: skip
+"""The same: `assign the drone to search`."""
+WISHING: frozenset[str] = frozenset(("have", "get", "want", "need"))
+"""Verbs for having something done: `have it delivered`."""
 
 HESITATIONS: frozenset[str] = frozenset(("um", "uh", "uhm", "er", "erm", "hmm", "hm", "mm", "ah", "umm", "uhh", "ehm"))
 """Sounds that say nothing, except between two figures or two names of one kind, where they may correct."""
@@ -150,6 +234,18 @@ def wordings_before_places() -> dict[str, tuple[tuple[Words, Words], ...]]:
 
 
 @cache
+def wordings_before_zones() -> dict[str, tuple[tuple[Words, Words], ...]]:
+    """The same, for wordings in front of a zone's name."""
+    return _indexed(BEFORE_A_ZONE)
+
+
+@cache
+def wordings_before_goals() -> dict[str, tuple[tuple[Words, Words], ...]]:
+    """The same, for wordings in front of a place's name or a point."""
+    return _indexed(BEFORE_A_GOAL)
+
+
+@cache
 def wordings_before_robots() -> dict[str, tuple[tuple[Words, Words], ...]]:
     """The same, for wordings in front of a robot's name."""
     return _indexed(BEFORE_A_ROBOT)
@@ -167,6 +263,17 @@ def _indexed(templates: tuple[tuple[str, str], ...]) -> dict[str, tuple[tuple[Wo
 @cache
 def wording_words() -> frozenset[str]:
     """Every word of a wording: none of them is a slip."""
-    said = (word for of in wordings().values() for words, _ in of for word in words)
+    before = (wordings_before_goals(), wordings_before_places(), wordings_before_robots(), wordings_before_zones())
+    tables = (wordings(), wordings_before_objects(), *before)
+    said = (word for table in tables for of in table.values() for words, _ in of for word in words)
     done = (w for verbs in DONE_AT.values() for said in verbs for w in said.split())
-    return frozenset((*said, *done, *HESITATIONS, *(w for words in WAITING for w in words)))
+    return frozenset(
+        (
+            *said,
+            *done,
+            *HESITATIONS,
+            *TASKING,
+            *ASSIGNING,
+            *(w for words in (*WAITING, *UP_IN, *DOWN_ON) for w in words),
+        )
+    )

@@ -107,7 +107,8 @@ class Scanner(Asides):
         if action is None and not sending and self._light(verb) is not None:
             self.taken.update(range(end, verb))
             return Piece(at, start, Role.FILLER)  # "have the drone take a look"
-        if action is None or (sending and not marked) or self._name_is_place(verb) or action.words[0] in PLACE_NOUNS:
+        noun = action is not None and action.words[0] in PLACE_NOUNS and self._past_named(verb + 1) == verb + 1
+        if action is None or (sending and not marked) or self._name_is_place(verb) or noun:
             return None
         self.taken.update(range(end, verb))
         return Piece(at, start, Role.FILLER, norm=self.tokens[at].norm)

@@ -17,6 +17,8 @@ class Vocabulary(NamedTuple):
     """Names and verbs: recognised, and asked back."""
     silent: frozenset[str]
     """Words that say nothing by themselves."""
+    pronouns: frozenset[str]
+    """Words for what was named before: only two letters that were swapped in one of them are recognised."""
     turning: frozenset[str]
     """Words that turn a request round: negations, conditions, corrections."""
 
@@ -34,6 +36,11 @@ def recognised(word: str, known: Iterable[str], shortest: int = SHORTEST) -> str
     """The one known word that was meant; None if there is none, or more than one."""
     found = {other for other in known if len(other) >= shortest and slips(word, other)} if len(word) > 2 else set()
     return found.pop() if len(found) == 1 else None
+
+
+def swapped(word: str, meant: str) -> bool:
+    """Whether a word is another one with two letters swapped."""
+    return word != meant and _swapped(word, meant)
 
 
 def swapped_short(word: str, known: Iterable[str]) -> str | None:

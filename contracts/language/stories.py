@@ -11,11 +11,15 @@ CLASSES: dict[str, str] = {
     "am": "i'm|i am|we're|we are|i feel|we feel|i was|i'm feeling|i am feeling",
     "have": "i have|i've|i've got|i have got|i got|we have|we've got",
     "my": "my|our",
-    "very": "so|very|really|quite|a bit|a little|rather|too|pretty|terribly|awfully|just|a little bit",
+    "very": "so|very|really|quite|a bit|a little|rather|too|pretty|terribly|awfully|just|a little bit|kinda|"
+    "kind of|sort of|sorta|ever so|getting|absolutely|completely|utterly",
     "feeling": "tired|thirsty|hungry|starving|cold|freezing|busy|worried|worried sick|anxious|scared|afraid|nervous|"
     "excited|bored|sick|ill|unwell|poorly|exhausted|dizzy|upset|sad|curious|confused|old|old now|an old man|"
     "an old woman|"
     "an old lady|new here|new to this|in a hurry|in a rush|running late|getting old|getting on|getting tired|not well|"
+    "parched|famished|peckish|knackered|shattered|worn out|drained|frantic|panicking|stressed|terrified|shaken|"
+    "heartbroken|distraught|embarrassed|lonely|weary|drowsy|sleepy|dehydrated|dying of thirst|gasping|freezing cold|"
+    "starving hungry|worried to death|out of my mind with worry|"
     "not feeling well|not so young any more|not as young as i was|not young any more|out of breath|blind|deaf|shaking|"
     "glad|happy|desperate|in pain|in a bit of a hurry|no expert|not sure how this works|beside myself",
     "body": "hand|hands|leg|legs|knee|knees|arm|arms|foot|feet|back|eye|eyes|eyesight|sight|hearing|ears|hip|hips|neck|"
@@ -56,10 +60,10 @@ CLASSES: dict[str, str] = {
     "did not come home|didn't come home|hasn't come home|has not come home|has been missing|was reported missing|"
     "is reported missing|has been reported missing|reported missing|reported overdue|is overdue|overdue|gone missing|"
     "lost|missing|walked off|has walked off|lost his way|lost her way|has lost his way|has lost her way|strayed",
-    "since": "out there|somewhere|somewhere out there|this morning|last night|yesterday|since this morning|"
-    "since last night|since yesterday|again|today|for hours|for hours now|in the woods|on a walk|on a hike|(?:for|"
-    "since) (?:a|an|one|two|three|four|five|six|many|several|some|[0-9]+) (?:hour|hours|day|days|minutes)(?: now|"
-    " already)?",
+    "since": "out there|there|over there|somewhere|somewhere out there|this morning|last night|yesterday|"
+    "since this morning|since last night|since yesterday|again|today|for hours|for hours now|in the woods|on a walk|"
+    "on a hike|(?:for|since) (?:a|an|one|two|three|four|five|six|many|several|some|[0-9]+) (?:hour|hours|day|days|"
+    "minutes)(?: now| already)?",
     "lost": "lost|have lost|have just lost|just lost|are looking for|miss|can't find|cannot find|have not found|"
     "haven't found|have been looking for",
     "caller": "control|command|ops|operations|operator|headquarters|hq|central|mission control|ground control|"
@@ -105,6 +109,12 @@ HARMLESS: tuple[str, ...] = (
     "<sorry>(?: <very>)? <bother>",
     "<i> (?:know|realise|realize|understand|appreciate) (?:you're|you are|it's|it is|this is) "
     "(?:<very> )?(?:busy|late|early|a lot|a lot to ask|a bother|difficult|annoying|a nuisance)",
+    "(?:it|he|she) (?:has|'s|deserves) (?:done|worked|earned|had)? ?(?:<very> )?(?:enough|hard|a rest|a break|its rest)"
+    "(?: for)?(?: today| now| one day| already)?",
+    "(?:it's|he's|she's) (?:done|worked|earned|had) (?:<very> )?(?:enough|hard|a rest|a break|its rest)"
+    "(?: for)?(?: today| now| one day| already)?",
+    "(?:just |or )?(?:whenever|when) (?:you're|you are) ready",
+    "like|honestly|literally|seriously|basically|frankly|kinda|kind of|sort of|you see|if you like",
     "how are you(?: today| doing| doing today)?",
     "(?:<i> )?(?:really |do |much )*appreciate (?:it|that|this|your help|the help)",
     "(?:you're|you are) <praise>",
@@ -116,6 +126,18 @@ HARMLESS: tuple[str, ...] = (
     "(?:<thanks>)(?: <thanks>)*",
 )
 """Clauses that are left out, in any crew. `<name>` stands for a class."""
+
+OWN_CHOICE: tuple[str, ...] = (
+    "(?:you can |you may |feel free to |please |just )*(?:use|take|pick|choose) "
+    "(?:whichever|whatever|any|any of the)(?: (?:units?|robots?|machines?|vehicles?|one|ones))?"
+    "(?: (?:you|it) (?:want|wants|like|likes|prefer|please|think best|think is best|see fit|wish|fancy))?",
+    "(?:i don't mind|i do not mind|it doesn't matter|it does not matter|i don't care|"
+    "i do not care|"
+    "no matter) (?:who|which|which one|which robot|which of you|which unit)"
+    "(?: (?:of you )?(?:does it|goes|does|takes it|brings it|it is))?",
+    "whichever (?:one|robot|unit)? ?(?:you (?:want|like|prefer|please)|suits)",
+)
+"""Clauses that leave the choice of the robot to the crew, which has it anyway."""
 
 ABOUT_A_PERSON: tuple[str, ...] = (
     "(?:<whose> )?(?:<poor> )*<person> (?:<very> )?<gone>(?: since)?(?: <since>)*",

@@ -160,7 +160,10 @@ FUNCTION_WORDS: dict[Role, tuple[str, ...]] = {
         "conducts", "making", "doing", "performing", "conducting", "starting", "takes", "has", "runs", "go up",
         "fly up",
         "head out", "set off", "get going", "kick off", "carry on", "continue with", "proceed with", "get on with",
-        "get started", "embark on", "go over there", "go round", "fly out", "have", "take", "run", "go",
+        "get started", "fly around", "fly about", "fly off", "fly over there", "go around", "go off", "go up there",
+        "fly up there", "get out there", "get up there", "get over there", "head off", "head over there",
+        "go out there", "head out there", "fly out there", "mount",
+        "embark on", "go over there", "go round", "fly out", "have", "take", "run", "go",
         "come", "try",
         "proceed", "carry out", "commence", "initiate", "undertake", "organise", "organize", "arrange", "go on",
         "go out", "go ahead", "give", "start by", "begin by", "continue",
@@ -216,7 +219,11 @@ AFFECTIVE: frozenset[str] = word_set(
 QUALITIES: frozenset[str] = word_set("quick good full thorough proper careful complete detailed close systematic")
 """Adjectives of a search that no skill here can heed, and that none would refuse."""
 NICKNAMES: dict[str, tuple[str, ...]] = {
-    "dog": ("doggy", "doggie", "doggo"), "robot": ("bot",), "drone": ("uav",), "rover": ("buggy",),
+    "dog": ("doggy", "doggie", "doggo", "pup", "puppy", "hound", "pooch", "robodog", "quadrupedal robot"),
+    "robot": ("bot", "droid"),
+    "drone": ("uav", "helicopter", "chopper", "quadrocopter", "multicopter", "aircraft", "flyer", "aerial vehicle"),
+    "rover": ("buggy", "ground vehicle", "ground unit", "wheeled robot"),
+    "humanoid": ("android",),
 }  # fmt: skip
 """What people call a class of robots beside its aliases."""
 IN_NEED: frozenset[str] = word_set("hurt injured lost missing wounded stranded trapped overdue there")

@@ -14,11 +14,10 @@ from pathlib import Path
 
 import crew
 from crew.contracts.language.lexicon import lexicon_of
-from crew.contracts.language.spelling import slips
+from crew.contracts.language.spelling import SHORTEST, slips, swapped
 from crew.library import load_rules
 
 TABLE = Path(crew.__file__).parent / "contracts" / "language" / "slips.py"
-SHORTEST = 5
 HEAD = '''"""Words of the shipped crews whose slips were looked up, and slips among them that may be another word.
 
 Made by tests/unit/contracts/language/make_slips.py; not to be edited.
@@ -30,12 +29,10 @@ from crew.contracts.language.words import word_set
 
 
 def looked_up() -> set[str]:
-    """The names and verbs of the shipped crews that are long enough."""
-    words = (
-        w
-        for crew_name in ("air_ground", "humanoid_quadruped")
-        for w in lexicon_of(load_rules(crew_name)).vocabulary.names
-    )
+    """The names, verbs and pronouns of the shipped crews that are long enough."""
+    crews = ("air_ground", "humanoid_quadruped")
+    known = (lexicon_of(load_rules(crew_name)).vocabulary for crew_name in crews)
+    words = (w for vocabulary in known for w in vocabulary.names | vocabulary.pronouns)
     return {w for w in words if len(w) >= SHORTEST and w.isalpha()}
 
 
@@ -58,7 +55,8 @@ def origins(slip: str) -> set[str]:
 
 def doubtful(word: str, known: set[str], common: set[str]) -> set[str]:
     """Slips of a word that are a word by themselves, or may be meant for another."""
-    made = {slip for slip in typed(word) if slips(slip, word)}
+    read = swapped if len(word) == SHORTEST else slips
+    made = {slip for slip in typed(word) if read(slip, word)}
     return {slip for slip in made if slip in known or (origins(slip) & common) - {word}}
 
 

@@ -52,8 +52,8 @@ def test_no_slip_turns_a_request_round(crew: str) -> None:
     ("text", "word", "meant"),
     [
         ("sned the rover to base", "sned", "send"),
-        ("send the rover to bsae", "bsae", "base"),
-        ("search the north hlaf", "hlaf", "half"),
+        ("send the rover to bse", "bse", "base"),
+        ("search the north halff", "halff", "half"),
         ("send the Rovre to base", "Rovre", "rover"),
     ],
 )
@@ -70,6 +70,9 @@ def test_a_slip_in_a_name_or_verb_is_read_and_asked_back(text: str, word: str, m
         ("Serach the north half", "Serach", "search"),
         ("find the victm", "victm", "victim"),
         ("searchh the area", "searchh", "search"),
+        ("send the rover to bsae", "bsae", "base"),
+        ("search the north hlaf", "hlaf", "half"),
+        ("find the hiker and send the rover to tehm", "tehm", "them"),
     ],
 )
 def test_a_slip_that_can_be_nothing_else_is_read_and_shown(text: str, word: str, meant: str, rules: Rules) -> None:

@@ -10,9 +10,15 @@ FILES = {
     "requests_voices.yaml": ("tuned", "held", "last"),
     "requests_people.yaml": ("read", "unread"),
     "requests_crowd.yaml": ("read", "unread"),
+    "requests_strangers.yaml": ("unread",),
 }
 CREWS = {"air": "air_ground", "indoor": "humanoid_quadruped"}
-NEEDLESS = {"requests_voices.yaml": 0.031, "requests_people.yaml": 0.082, "requests_crowd.yaml": 0.082}
+NEEDLESS = {
+    "requests_voices.yaml": 0.031,
+    "requests_people.yaml": 0.076,
+    "requests_crowd.yaml": 0.069,
+    "requests_strangers.yaml": 0.036,
+}
 """The share of requests that could be carried out and are refused; one that is asked back counts half.
 
 What the reader makes of them now; docs/planner.md has what it made of them when it met them.

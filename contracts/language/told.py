@@ -1,0 +1,160 @@
+"""How a robot is told: `get the drone up`, `task it with a search`, put into the words that its crew has for that.
+
+Every rule needs the robot's name in its place, and that each robot that may be meant can do it.
+"""
+
+from collections.abc import Iterator
+
+from crew.contracts.language.entry import Entry, stands_all
+from crew.contracts.language.figures import is_numeral
+from crew.contracts.language.inflect import Form, inflections
+from crew.contracts.language.lexicon import Lexicon, match
+from crew.contracts.language.lookahead import ARTICLES
+from crew.contracts.language.mention import ROBOT_KINDS, MentionKind
+from crew.contracts.language.rewrites import ASSIGNING, DOWN_ON, LOWERING, RAISING, TASKING, UP_IN, WISHING
+from crew.contracts.language.tokens import Shape, Token
+from crew.contracts.language.words import AFFECTIVE
+
+_LAUNCH, _LAND, _TELL = "launch", "land", "tell"
+_ENDS_UP = frozenset(("and", "then", "to", "so", "please", "now"))
+_OPENS = frozenset(("and", "then", "please", "so", "or", "now"))
+
+Rule = tuple[int, list[Token]]
+"""How many tokens are replaced, and by what."""
+
+
+def told(tokens: list[Token], lexicon: Lexicon) -> list[Token]:
+    """The tokens of a request in the crew's own words for what is told to a robot."""
+    out: list[Token] = []
+    at = 0
+    while at < len(tokens):
+        rules = (rule(tokens, at, lexicon) for rule in (_raised, _lowered, _tasked, _assigned, _done, _put))
+        words, plain = next((found for found in rules if found is not None), (1, tokens[at : at + 1]))
+        out.extend(plain)
+        at += words
+    return out
+
+
+def _raised(tokens: list[Token], at: int, lexicon: Lexicon) -> Rule | None:
+    """`get the drone in the air`, `get the drone up to 8 metres`."""
+    if tokens[at].norm not in RAISING or (end := _robot(tokens, at + 1, lexicon, _LAUNCH)) is None:
+        return None
+    up = next((words for words in UP_IN if stands_all(tokens, end, words)), None)
+    if up is None:
+        return None
+    after = end + len(up)
+    if up == ("up",) and _over_zone(tokens, after, lexicon):
+        over = _said(tokens[after], "over")
+        return after + 1 - at, [_said(tokens[at], _LAUNCH), *tokens[at + 1 : end], over]
+    climbs = after < len(tokens) and tokens[after].norm == "to"
+    if len(up) == 1 and not (_closed(tokens, after) and (not climbs or _numeral(tokens, after + 1))):
+        return None
+    return after - at, [_said(tokens[at], _LAUNCH), *tokens[at + 1 : end]]
+
+
+def _over_zone(tokens: list[Token], at: int, lexicon: Lexicon) -> bool:
+    """`to the north half and` do something there."""
+    named = at + 1 + (at + 1 < len(tokens) and tokens[at + 1].norm in ARTICLES)
+    name = match(lexicon.names, tokens, named) if stands_all(tokens, at, ("to",)) and named < len(tokens) else None
+    zone = name is not None and name.kind is MentionKind.ZONE
+    return zone and name is not None and stands_all(tokens, named + len(name.words), ("and",))
+
+
+def _lowered(tokens: list[Token], at: int, lexicon: Lexicon) -> Rule | None:
+    """`put the drone on the ground`."""
+    if tokens[at].norm not in LOWERING or (end := _robot(tokens, at + 1, lexicon, _LAND)) is None:
+        return None
+    down = next((words for words in DOWN_ON if stands_all(tokens, end, words)), None)
+    if down is None or not _ended(tokens, end + len(down)):
+        return None
+    return end + len(down) - at, [_said(tokens[at], _LAND), *tokens[at + 1 : end]]
+
+
+def _tasked(tokens: list[Token], at: int, lexicon: Lexicon) -> Rule | None:
+    """`task the drone with a search of the north half`."""
+    end = _robot(tokens, at + 1, lexicon) if tokens[at].norm in TASKING else None
+    if end is None or not stands_all(tokens, end, ("with",)):
+        return None
+    noun = end + 1 + (end + 1 < len(tokens) and tokens[end + 1].norm in ARTICLES)
+    verb = _action(tokens, noun, lexicon)
+    if verb is None or not any((r.contract, r.step) in lexicon.zone_steps for r in verb.means):
+        return None
+    return end + 1 - at, [_said(tokens[at], "have"), *tokens[at + 1 : end], _said(tokens[end], "do")]
+
+
+def _assigned(tokens: list[Token], at: int, lexicon: Lexicon) -> Rule | None:
+    """`assign the drone to search`."""
+    end = _robot(tokens, at + 1, lexicon) if tokens[at].norm in ASSIGNING else None
+    if end is None or not stands_all(tokens, end, ("to",)) or _action(tokens, end + 1, lexicon) is None:
+        return None
+    placed = match(lexicon.names, tokens, end + 1)
+    if placed is not None and placed.kind is not MentionKind.ACTION:
+        return None
+    return 1, [_said(tokens[at], _TELL)]
+
+
+def _done(tokens: list[Token], at: int, lexicon: Lexicon) -> Rule | None:
+    """`have it delivered to room_b`: to deliver it there."""
+    wished = tokens[at].norm in WISHING and at + 2 < len(tokens) and tokens[at + 1].norm in ("it", "them")
+    if not wished or not _begins(tokens, at):
+        return None
+    done = [e for e in lexicon.names.get(tokens[at + 2].norm, ()) if e.kind is MentionKind.ACTION and len(e.words) == 1]
+    base = next((verb for e in done for verb in _bases(e, lexicon)), None)
+    return None if base is None else (3, [_said(tokens[at], base), tokens[at + 1]])
+
+
+def _put(tokens: list[Token], at: int, lexicon: Lexicon) -> Rule | None:
+    """`have the bottle put on table_b`: to put it there."""
+    named = at + 1 + (at + 1 < len(tokens) and tokens[at + 1].norm in ARTICLES)
+    name = match(lexicon.names, tokens, named) if tokens[at].norm in ("have", "get") and named < len(tokens) else None
+    if name is None or name.kind is not MentionKind.OBJECT or not _begins(tokens, at):
+        return None
+    end = named + len(name.words)
+    put = any(stands_all(tokens, end, (verb, link)) for verb in ("put", "set") for link in ("on", "onto"))
+    return (end + 1 - at, [_said(tokens[at], "put"), *tokens[at + 1 : end]]) if put else None
+
+
+def _begins(tokens: list[Token], at: int) -> bool:
+    """Whether what stands here is asked for, and not told of somebody."""
+    return not at or tokens[at - 1].shape is Shape.MARK or tokens[at - 1].norm in _OPENS
+
+
+def _bases(done: Entry, lexicon: Lexicon) -> Iterator[str]:
+    """The verbs of which this is the past form."""
+    if done.form is Form.PAST:
+        single = (e for found in lexicon.names.values() for e in found if len(e.words) == 1)
+        bases = (e.words for e in single if e.kind is MentionKind.ACTION and e.form is Form.BASE)
+        yield from (words[0] for words in bases if (Form.PAST, done.words) in inflections(words))
+
+
+def _robot(tokens: list[Token], at: int, lexicon: Lexicon, verb: str = "") -> int | None:
+    """Past one robot's name that stands here, if each robot it may mean has the skill of the verb."""
+    while at < len(tokens) and (tokens[at].norm in ARTICLES or tokens[at].norm in AFFECTIVE):
+        at += 1
+    name = match(lexicon.names, tokens, at) if at < len(tokens) else None
+    if name is None or name.kind not in ROBOT_KINDS or name.plural:
+        return None
+    able = {r.skill for e in lexicon.names.get(verb, ()) if e.words == (verb,) for r in e.means}
+    can = all(able & lexicon.members.get(str(robot), frozenset()) for robot in name.values)
+    return at + len(name.words) if can or not verb else None
+
+
+def _action(tokens: list[Token], at: int, lexicon: Lexicon) -> Entry | None:
+    entries = lexicon.names.get(tokens[at].norm, ()) if at < len(tokens) else ()
+    return next((e for e in entries if e.kind is MentionKind.ACTION and stands_all(tokens, at, e.words)), None)
+
+
+def _closed(tokens: list[Token], at: int) -> bool:
+    return _ended(tokens, at) or tokens[at].norm in _ENDS_UP
+
+
+def _ended(tokens: list[Token], at: int) -> bool:
+    return at >= len(tokens) or tokens[at].shape is Shape.MARK or tokens[at].norm in ("and", "then", "now", "please")
+
+
+def _numeral(tokens: list[Token], at: int) -> bool:
+    return at < len(tokens) and is_numeral(tokens, at)
+
+
+def _said(token: Token, word: str) -> Token:
+    return Token(word, token.start, token.end, Shape.WORD)
