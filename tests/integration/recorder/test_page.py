@@ -23,7 +23,7 @@ def scene_is_drawn(shot: Shot) -> None:
     assert shot.colours(SCENE) > 300, "what stands on the ground is shaded"
 
 
-@pytest.mark.parametrize("outcome", ["completed", "halted", "rejected"])
+@pytest.mark.parametrize("outcome", ["completed", "halted", pytest.param("rejected", marks=pytest.mark.soak)])
 def test_a_real_run_is_shown(desk: Desk, runs: dict[str, Path], viewer: Viewer, outcome: str) -> None:
     with shown(desk, runs[outcome]) as address:
         shot = viewer.look(address, TONES[outcome])
