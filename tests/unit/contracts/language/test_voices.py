@@ -11,6 +11,7 @@ FILES = {
     "requests_people.yaml": ("read", "unread"),
     "requests_crowd.yaml": ("read", "unread"),
     "requests_strangers.yaml": ("unread",),
+    "requests_newcomers.yaml": ("unread",),
 }
 CREWS = {"air": "air_ground", "indoor": "humanoid_quadruped"}
 NEEDLESS = {
@@ -18,6 +19,7 @@ NEEDLESS = {
     "requests_people.yaml": 0.076,
     "requests_crowd.yaml": 0.069,
     "requests_strangers.yaml": 0.036,
+    "requests_newcomers.yaml": 0.346,
 }
 """The share of requests that could be carried out and are refused; one that is asked back counts half.
 
