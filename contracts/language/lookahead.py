@@ -10,6 +10,13 @@ from crew.contracts.language.words import Role
 ARTICLES = frozenset(("the", "a", "an", "all", "both", "your", "our", "my", "any", "this", "that", "these", "those"))
 
 
+def named(tokens: list[Token], at: int, lexicon: Lexicon) -> tuple[Entry | None, int]:
+    """The name that stands here, past one article, and where it is over; without one, where the article is over."""
+    start = at + (at < len(tokens) and tokens[at].norm in ARTICLES)
+    name = match(lexicon.names, tokens, start) if start < len(tokens) else None
+    return name, start + (0 if name is None else len(name.words))
+
+
 class Lookahead:
     """The tokens of one request, with the pieces that were made of them so far."""
 

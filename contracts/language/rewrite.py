@@ -4,8 +4,8 @@ from collections.abc import Mapping, Sequence
 
 from crew.contracts.language.entry import Words, stands_all
 from crew.contracts.language.figures import is_numeral
-from crew.contracts.language.lexicon import Lexicon, match
-from crew.contracts.language.lookahead import ARTICLES
+from crew.contracts.language.lexicon import Lexicon
+from crew.contracts.language.lookahead import ARTICLES, named
 from crew.contracts.language.mention import ROBOT_KINDS, MentionKind
 from crew.contracts.language.restated import restated
 from crew.contracts.language.rewrites import (
@@ -105,9 +105,7 @@ def _before_name(
 ) -> tuple[int, Words] | None:
     """`wait at the charger`, `could I get the bottle`: wordings that hold only before a name of a kind."""
     for words, plain in table.get(tokens[at].norm, ()):
-        named = at + len(words)
-        named += named < len(tokens) and tokens[named].norm in ARTICLES
-        name = match(lexicon.names, tokens, named) if named < len(tokens) else None
+        name, _ = named(tokens, at + len(words), lexicon)
         if stands_all(tokens, at, words) and name is not None and name.kind is kind:
             return len(words), plain
     return None
@@ -145,12 +143,10 @@ def _for_me(tokens: list[Token], at: int, lexicon: Lexicon) -> tuple[int, Words]
     words = next((w for w in _GRABBED if stands_all(tokens, at, w)), None)
     if words is None:
         return None
-    named = at + len(words)
-    named += named < len(tokens) and tokens[named].norm in ARTICLES
-    name = match(lexicon.names, tokens, named) if named < len(tokens) else None
+    name, end = named(tokens, at + len(words), lexicon)
     if name is None or name.kind is not MentionKind.OBJECT:
         return None
-    return (len(words), ("fetch",)) if stands_all(tokens, named + len(name.words), ("for", "me")) else None
+    return (len(words), ("fetch",)) if stands_all(tokens, end, ("for", "me")) else None
 
 
 def _moved_robot(tokens: list[Token], at: int, lexicon: Lexicon) -> tuple[int, Words] | None:
@@ -158,9 +154,9 @@ def _moved_robot(tokens: list[Token], at: int, lexicon: Lexicon) -> tuple[int, W
     summoned = tokens[at].norm in SENDING
     if "send" not in lexicon.names or not (summoned or tokens[at].norm in wordings_before_robots()):
         return None
-    named = at + 1 + (at + 1 < len(tokens) and tokens[at + 1].norm in ARTICLES)
-    name = match(lexicon.names, tokens, named) if named < len(tokens) else None
-    end = named + (len(name.words) if name is not None and name.kind in ROBOT_KINDS else len(tokens))
+    name, end = named(tokens, at + 1, lexicon)
+    if name is None or name.kind not in ROBOT_KINDS:
+        return None
     end += end < len(tokens) and tokens[end].norm in ("back", "over")
     leads = ("to", "here") if summoned else LEADS_ON
     return (1, ("send",)) if end < len(tokens) and tokens[end].norm in leads else None
@@ -169,11 +165,10 @@ def _moved_robot(tokens: list[Token], at: int, lexicon: Lexicon) -> tuple[int, W
 def _there_and(tokens: list[Token], at: int, lexicon: Lexicon) -> tuple[int, Words] | None:
     """`fly to the north half and search it`: to search it is to fly there."""
     moved = tokens[at].norm in ("fly", "go", "head", "move") and at + 1 < len(tokens) and tokens[at + 1].norm == "to"
-    named = at + 2 + (at + 2 < len(tokens) and tokens[at + 2].norm in ARTICLES)
-    name = match(lexicon.names, tokens, named) if moved and named < len(tokens) else None
+    name, end = named(tokens, at + 2, lexicon) if moved else (None, at)
     if name is None or name.kind is not MentionKind.ZONE:
         return None
-    verb = named + len(name.words) + 1
+    verb = end + 1
     entries = lexicon.names.get(tokens[verb].norm, ()) if verb < len(tokens) and tokens[verb - 1].norm == "and" else ()
     sweeps = any((r.contract, r.step) in lexicon.zone_steps for e in entries for r in e.means)
     return (2, ()) if sweeps else None
@@ -184,10 +179,9 @@ def _picked_and_put(tokens: list[Token], at: int, lexicon: Lexicon) -> tuple[int
     words = next((w for w in (("pick", "up"), ("grab",), ("take",)) if stands_all(tokens, at, w)), None)
     if words is None:
         return None
-    named = at + len(words)
-    named += named < len(tokens) and tokens[named].norm in ARTICLES
-    name = match(lexicon.names, tokens, named) if named < len(tokens) else None
-    end = named + (len(name.words) if name is not None and name.kind is MentionKind.OBJECT else len(tokens))
+    name, end = named(tokens, at + len(words), lexicon)
+    if name is None or name.kind is not MentionKind.OBJECT:
+        return None
     put = any(stands_all(tokens, end, ("and", verb, "it")) for verb in ("put", "place", "set"))
     return (len(words), ()) if put else None
 

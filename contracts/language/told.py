@@ -9,7 +9,7 @@ from crew.contracts.language.entry import Entry, stands_all
 from crew.contracts.language.figures import is_numeral
 from crew.contracts.language.inflect import Form, inflections
 from crew.contracts.language.lexicon import Lexicon, match
-from crew.contracts.language.lookahead import ARTICLES
+from crew.contracts.language.lookahead import ARTICLES, named
 from crew.contracts.language.mention import ROBOT_KINDS, MentionKind
 from crew.contracts.language.rewrites import ASSIGNING, DOWN_ON, LOWERING, RAISING, TASKING, UP_IN, WISHING
 from crew.contracts.language.tokens import Shape, Token
@@ -54,10 +54,9 @@ def _raised(tokens: list[Token], at: int, lexicon: Lexicon) -> Rule | None:
 
 def _over_zone(tokens: list[Token], at: int, lexicon: Lexicon) -> bool:
     """`to the north half and` do something there."""
-    named = at + 1 + (at + 1 < len(tokens) and tokens[at + 1].norm in ARTICLES)
-    name = match(lexicon.names, tokens, named) if stands_all(tokens, at, ("to",)) and named < len(tokens) else None
+    name, end = named(tokens, at + 1, lexicon)
     zone = name is not None and name.kind is MentionKind.ZONE
-    return zone and name is not None and stands_all(tokens, named + len(name.words), ("and",))
+    return zone and stands_all(tokens, at, ("to",)) and stands_all(tokens, end, ("and",))
 
 
 def _lowered(tokens: list[Token], at: int, lexicon: Lexicon) -> Rule | None:
@@ -105,11 +104,9 @@ def _done(tokens: list[Token], at: int, lexicon: Lexicon) -> Rule | None:
 
 def _put(tokens: list[Token], at: int, lexicon: Lexicon) -> Rule | None:
     """`have the bottle put on table_b`: to put it there."""
-    named = at + 1 + (at + 1 < len(tokens) and tokens[at + 1].norm in ARTICLES)
-    name = match(lexicon.names, tokens, named) if tokens[at].norm in ("have", "get") and named < len(tokens) else None
+    name, end = named(tokens, at + 1, lexicon) if tokens[at].norm in ("have", "get") else (None, at)
     if name is None or name.kind is not MentionKind.OBJECT or not _begins(tokens, at):
         return None
-    end = named + len(name.words)
     put = any(stands_all(tokens, end, (verb, link)) for verb in ("put", "set") for link in ("on", "onto"))
     return (end + 1 - at, [_said(tokens[at], "put"), *tokens[at + 1 : end]]) if put else None
 

@@ -16,7 +16,7 @@ from crew.clock import WALL
 from crew.contracts.site import Crew
 from crew.home import Home, Running
 from crew.keys import Keys
-from crew.launch.table import free_tcp_ports, roles
+from crew.launch.table import loopback_endpoints, roles
 from crew.router import RouterSpec
 from crew.supervisor import Child, Supervisor
 
@@ -61,9 +61,7 @@ async def _tried(crew: Crew, running: Running | None) -> list[Finding]:
     with tempfile.TemporaryDirectory() as folder:
         certificates = Path(folder) / "certificates"
         establish(certificates, roles(crew))
-        endpoint, guests = (
-            f"{kind}/127.0.0.1:{port}" for kind, port in zip(("tls", "tcp"), free_tcp_ports(2), strict=True)
-        )
+        endpoint, guests = loopback_endpoints()
 
         def link(role: str) -> Link:
             return Link(role=role, endpoint=endpoint, crew=crew.name, certificates=str(certificates))

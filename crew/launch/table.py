@@ -159,6 +159,12 @@ def _simulation(rules: Rules, options: LaunchOptions, running: Running, ports: M
     return Child(name="simulation", module="crew.sim.process", spec=spec)
 
 
+def loopback_endpoints() -> tuple[str, str]:
+    """Where a router on loopback may listen now: for everybody with a certificate, and for guests."""
+    router, guests = free_tcp_ports(2)
+    return f"tls/127.0.0.1:{router}", f"tcp/127.0.0.1:{guests}"
+
+
 def free_udp_ports(count: int) -> list[int]:
     """UDP ports of loopback that nobody holds now, each another one."""
     return _free_ports(socket.SOCK_DGRAM, count)

@@ -26,7 +26,7 @@ from crew.launch.options import LaunchOptions
 from crew.launch.ready import await_ready
 from crew.launch.single import SingleProcess
 from crew.launch.site import resolve
-from crew.launch.table import OPERATOR, Trust, free_tcp_ports, process_table, roles
+from crew.launch.table import OPERATOR, Trust, loopback_endpoints, process_table, roles
 from crew.supervisor import Child
 
 UNENFORCED = "UNENFORCED: no gate, no second check, no geofence; simulation only, for the study"
@@ -89,13 +89,13 @@ def unenforced(children: Sequence[Child]) -> list[Child]:
 def _address(rules: Rules, home: Home, run_folder: Path) -> Running:
     """A router of this mission's own on loopback: crews of a study run side by side, so none of them claims a name."""
     name = rules.crew.name
-    router_port, guests_port = free_tcp_ports(2)
+    endpoint, guests = loopback_endpoints()
     return Running(
         crew=name,
         pid=os.getpid(),
         run_folder=str(run_folder),
-        endpoint=f"tls/127.0.0.1:{router_port}",
-        guests=f"tcp/127.0.0.1:{guests_port}",
+        endpoint=endpoint,
+        guests=guests,
         certificates=str(home.certificates(name)),
         started_wall_ns=time.time_ns(),
     )

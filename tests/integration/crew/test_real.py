@@ -11,7 +11,7 @@ import pytest
 
 from crew.actors.recorder.rrd import FILE, is_whole
 from crew.launch.alone import running_at
-from crew.launch.table import free_tcp_ports, free_udp_ports
+from crew.launch.table import free_udp_ports, loopback_endpoints
 from crew.library import CREWS
 from crew.signing import load_or_create_key
 from crew.sim.config import WorldConfig
@@ -88,8 +88,7 @@ async def test_each_role_runs_by_itself_with_only_its_own_keys(desk: Desk, ports
     """As the units of a deployment start them: a state folder for each role, and one crew file."""
     file = crew_file(desk.folder, ports)
     assert desk.crew("certs", "init", str(file)).returncode == 0
-    router_port, guests_port = free_tcp_ports(2)
-    router, guests = f"tls/127.0.0.1:{router_port}", f"tcp/127.0.0.1:{guests_port}"
+    router, guests = loopback_endpoints()
     where = ("--router", router, "--guests", guests)
     with vehicles(ports), ExitStack() as stack:
         own = {role: _own_folder(desk, role) for role in ROLES}

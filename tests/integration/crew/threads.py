@@ -23,7 +23,7 @@ from crew.launch.options import LaunchOptions
 from crew.launch.ready import await_ready
 from crew.launch.single import InlineContext
 from crew.launch.site import resolve
-from crew.launch.table import Trust, free_tcp_ports, process_table, roles
+from crew.launch.table import Trust, loopback_endpoints, process_table, roles
 from crew.packed import unpack
 from crew.supervisor import Child, Supervisor
 from tests.integration.crew.harness import NAME, Desk, Watch, watching
@@ -133,9 +133,7 @@ async def crew_with_threads(desk: Desk, *names: str, speed: float = 0.0) -> Asyn
     rules = resolve(options)
     folder = new_run_folder(desk.runs, NAME)
     establish(desk.home.certificates(NAME), roles(rules.crew))
-    endpoint, guests = (
-        f"{kind}/127.0.0.1:{port}" for kind, port in zip(("tls", "tcp"), free_tcp_ports(2), strict=True)
-    )
+    endpoint, guests = loopback_endpoints()
     adapters: dict[str, Adapter] = {}
     make_adapter = robot_process.make_adapter
 

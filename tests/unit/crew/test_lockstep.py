@@ -2,8 +2,8 @@
 
 import asyncio
 import time
-from collections.abc import AsyncIterator, Awaitable
-from contextlib import AsyncExitStack
+from collections.abc import AsyncIterator, Awaitable, Callable
+from contextlib import AsyncExitStack, asynccontextmanager
 
 import pytest
 
@@ -65,6 +65,25 @@ async def within(work: Awaitable[object], seconds: float = 5.0) -> bool:
 async def ends(task: "asyncio.Future[None]") -> None:
     task.cancel()
     await asyncio.gather(task, return_exceptions=True)
+
+
+@asynccontextmanager
+async def following(stage: Stage, received: Callable[[], int] = lambda: 0, sent: int = 0) -> AsyncIterator[Participant]:
+    """A participant that has joined, with so many datagrams on its link."""
+    follower = Participant(stage.robot, KEYS, "iris", stage.clock, counts=lambda: (sent, received()))
+    task = asyncio.ensure_future(follower.run())
+    try:
+        assert (await stage.next_ack()).slice == -1
+        yield follower
+    finally:
+        await ends(task)
+
+
+async def done_with_a_slice(stage: Stage) -> ClockAck:
+    """The next word of a participant that is no sign of life."""
+    while (done := await stage.next_ack()).holding:
+        pass
+    return done
 
 
 async def test_nobody_is_waited_for_before_anybody_joined(stage: Stage) -> None:
@@ -187,49 +206,40 @@ async def test_the_simulation_hurries_as_long_as_one_participant_works(stage: St
 
 
 async def test_a_slice_is_withheld_while_work_is_in_flight(stage: Stage) -> None:
-    task = asyncio.ensure_future(Participant(stage.robot, KEYS, "iris", stage.clock, idle=lambda: True).run())
-    assert (await stage.next_ack()).slice == -1
-    with stage.clock.busy():
-        stage.tick(1)
-        while not (held := await stage.next_ack()).holding:
-            assert held.slice == -1
-        assert not held.idle, "whoever holds a slice is not idle"
-    while (done := await stage.next_ack()).holding:
-        pass
-    assert done.slice == 1
-    assert done.idle
-    await ends(task)
+    async with following(stage):
+        with stage.clock.busy():
+            stage.tick(1)
+            while not (held := await stage.next_ack()).holding:
+                assert held.slice == -1
+            assert not held.idle, "whoever holds a slice is not idle"
+        done = await done_with_a_slice(stage)
+        assert done.slice == 1
+        assert done.idle
 
 
 async def test_time_waits_for_datagrams_that_the_simulation_has_sent(stage: Stage) -> None:
     received = 0
-    follower = Participant(stage.robot, KEYS, "iris", stage.clock, counts=lambda: (9, received))
-    task = asyncio.ensure_future(follower.run())
-    await stage.next_ack()
-    stage.tick(1, datagrams=3)
-    while not (await stage.next_ack()).holding:
-        pass
-    assert stage.clock.now_ns() == 0, "telemetry that is on its way arrives before time moves"
-    received = 3
-    follower.notice_traffic()
-    while (done := await stage.next_ack()).holding:
-        pass
-    assert (done.slice, done.datagrams) == (1, 9)
-    assert stage.clock.now_ns() == SLICE_NS
-    await ends(task)
+    async with following(stage, lambda: received, sent=9) as follower:
+        stage.tick(1, datagrams=3)
+        while not (await stage.next_ack()).holding:
+            pass
+        assert stage.clock.now_ns() == 0, "telemetry that is on its way arrives before time moves"
+        received = 3
+        follower.notice_traffic()
+        done = await done_with_a_slice(stage)
+        assert (done.slice, done.datagrams) == (1, 9)
+        assert stage.clock.now_ns() == SLICE_NS
 
 
 async def test_a_lost_datagram_delays_one_slice_and_no_other(stage: Stage, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(lockstep_module, "LOST_AFTER_S", 0.1)
-    task = asyncio.ensure_future(Participant(stage.robot, KEYS, "iris", stage.clock, counts=lambda: (0, 2)).run())
-    await stage.next_ack()
-    for number in (1, 2):
-        stage.tick(number, datagrams=5)
-        while (done := await stage.next_ack()).slice < number or done.holding:
-            pass
-        monkeypatch.setattr(lockstep_module, "LOST_AFTER_S", 60.0)
-    assert stage.clock.now_ns() == 2 * SLICE_NS
-    await ends(task)
+    async with following(stage, lambda: 2):
+        for number in (1, 2):
+            stage.tick(number, datagrams=5)
+            while (done := await stage.next_ack()).slice < number or done.holding:
+                pass
+            monkeypatch.setattr(lockstep_module, "LOST_AFTER_S", 60.0)
+        assert stage.clock.now_ns() == 2 * SLICE_NS
 
 
 async def test_a_link_that_is_down_delays_one_slice_and_is_waited_for_again_once_it_is_back(
@@ -237,10 +247,7 @@ async def test_a_link_that_is_down_delays_one_slice_and_is_waited_for_again_once
 ) -> None:
     monkeypatch.setattr(lockstep_module, "LOST_AFTER_S", 0.1)
     received = 0
-    follower = Participant(stage.robot, KEYS, "iris", stage.clock, counts=lambda: (0, received))
-    task = asyncio.ensure_future(follower.run())
-    try:
-        assert (await stage.next_ack()).slice == -1
+    async with following(stage, lambda: received) as follower:
         stage.tick(1, datagrams=3)
         assert (await stage.next_ack()).slice == 1, "three datagrams are given up"
         monkeypatch.setattr(lockstep_module, "LOST_AFTER_S", 60.0)
@@ -253,8 +260,6 @@ async def test_a_link_that_is_down_delays_one_slice_and_is_waited_for_again_once
         received = 2
         follower.notice_traffic()
         assert (await stage.next_ack()).slice == 3
-    finally:
-        await ends(task)
 
 
 async def test_a_datagram_that_was_only_late_does_not_stand_for_a_later_one(
@@ -262,10 +267,7 @@ async def test_a_datagram_that_was_only_late_does_not_stand_for_a_later_one(
 ) -> None:
     monkeypatch.setattr(lockstep_module, "LOST_AFTER_S", 0.1)
     received = 1
-    follower = Participant(stage.robot, KEYS, "iris", stage.clock, counts=lambda: (0, received))
-    task = asyncio.ensure_future(follower.run())
-    try:
-        assert (await stage.next_ack()).slice == -1
+    async with following(stage, lambda: received):
         stage.tick(1, datagrams=2)
         assert (await stage.next_ack()).slice == 1, "the second is given up"
         monkeypatch.setattr(lockstep_module, "LOST_AFTER_S", 60.0)
@@ -275,8 +277,6 @@ async def test_a_datagram_that_was_only_late_does_not_stand_for_a_later_one(
             assert (await stage.next_ack()).slice == number
         stage.tick(COUNT_AFTER + 2, datagrams=COUNT_AFTER + 3)
         assert (await stage.next_ack()).holding, "nothing is lost any more"
-    finally:
-        await ends(task)
 
 
 async def test_what_the_next_slice_sends_early_does_not_make_up_for_what_was_lost(
@@ -287,20 +287,13 @@ async def test_what_the_next_slice_sends_early_does_not_make_up_for_what_was_los
     monkeypatch.setattr(lockstep_module, "COUNT_AFTER", 1)
     monkeypatch.setattr(lockstep_module, "COUNT_S", 1.0)
     received = 0
-    follower = Participant(stage.robot, KEYS, "iris", stage.clock, counts=lambda: (0, received))
-    task = asyncio.ensure_future(follower.run())
-    try:
-        assert (await stage.next_ack()).slice == -1
+    async with following(stage, lambda: received) as follower:
         stage.tick(1, datagrams=2)
         await asyncio.sleep(0.3)  # two are lost; the count is on
         received = 2  # of slice 2
         stage.tick(2, datagrams=4)
-        while (done := await stage.next_ack()).holding:
-            pass
-        assert done.slice == 2
+        assert (await done_with_a_slice(stage)).slice == 2
         assert follower._losses.lost == 2
-    finally:
-        await ends(task)
 
 
 async def test_a_link_that_is_back_in_the_middle_of_a_slice_holds_nobody_up(
@@ -308,10 +301,7 @@ async def test_a_link_that_is_back_in_the_middle_of_a_slice_holds_nobody_up(
 ) -> None:
     monkeypatch.setattr(lockstep_module, "LOST_AFTER_S", 0.1)
     received = 0
-    follower = Participant(stage.robot, KEYS, "iris", stage.clock, counts=lambda: (0, received))
-    task = asyncio.ensure_future(follower.run())
-    try:
-        assert (await stage.next_ack()).slice == -1
+    async with following(stage, lambda: received) as follower:
         stage.tick(1, datagrams=3)
         assert (await stage.next_ack()).slice == 1
         monkeypatch.setattr(lockstep_module, "LOST_AFTER_S", 60.0)
@@ -322,8 +312,4 @@ async def test_a_link_that_is_back_in_the_middle_of_a_slice_holds_nobody_up(
         assert (await stage.next_ack()).holding, "two of the next are on their way"
         received = 4
         follower.notice_traffic()
-        while (done := await stage.next_ack()).holding:
-            pass
-        assert done.slice == 3
-    finally:
-        await ends(task)
+        assert (await done_with_a_slice(stage)).slice == 3

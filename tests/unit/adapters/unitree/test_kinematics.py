@@ -2,6 +2,7 @@
 
 import math
 from pathlib import Path
+from typing import Any
 
 import mujoco
 import pytest
@@ -16,14 +17,16 @@ from tests import menagerie
 CUBE, TRAY, HAND, TABLE_B = (0.37, -0.08, 0.745), (0.08, -0.47, 0.63), (0.33, -0.42, 0.95), (0.12, 0.52, 0.77)
 
 
+BENT = (0.5, 0.2, 0.3, -1.0, -0.4, 0.6, 1.0, 0.5, -0.7, 0.4)
+
+
 @pytest.fixture(scope="module")
 def arm() -> Arm:
     return Arm()
 
 
-@pytest.mark.parametrize("posture", [REST, TUCKED, READY, (0.5, 0.2, 0.3, -1.0, -0.4, 0.6, 1.0, 0.5, -0.7, 0.4)])
-def test_it_has_the_hand_where_the_simulated_robot_has_it(arm: Arm, posture: tuple[float, ...]) -> None:
-    model = mujoco.MjModel.from_xml_path(str(MODELS / "g1.xml"))
+def has_the_hand_there(arm: Arm, model: Any, posture: tuple[float, ...]) -> None:
+    """The description's hand is where the simulated robot's is, in one posture."""
     data = mujoco.MjData(model)
     for name, angle in zip(arm.names, posture, strict=True):
         data.joint(name).qpos[0] = angle
@@ -31,6 +34,11 @@ def test_it_has_the_hand_where_the_simulated_robot_has_it(arm: Arm, posture: tup
     pose = arm.pose(posture)
     assert pose.translation().tolist() == pytest.approx(data.site("grasp").xpos.tolist(), abs=1e-9)
     assert pose.rotation().as_matrix().ravel().tolist() == pytest.approx(data.site("grasp").xmat.tolist(), abs=1e-9)
+
+
+@pytest.mark.parametrize("posture", [REST, TUCKED, READY, BENT])
+def test_it_has_the_hand_where_the_simulated_robot_has_it(arm: Arm, posture: tuple[float, ...]) -> None:
+    has_the_hand_there(arm, mujoco.MjModel.from_xml_path(str(MODELS / "g1.xml")), posture)
 
 
 @pytest.mark.parametrize("point", [CUBE, TRAY, HAND, TABLE_B])
@@ -53,15 +61,7 @@ def test_a_way_begins_and_ends_where_it_shall(arm: Arm) -> None:
 
 def test_another_description_has_the_hand_where_the_robot_built_from_it_has_it(tmp_path: Path) -> None:
     folder = str(menagerie.make(tmp_path))
-    arm, model = Arm(folder), robot("g1", folder).compile()
-    data = mujoco.MjData(model)
-    posture = (0.5, 0.2, 0.3, -1.0, -0.4, 0.6, 1.0, 0.5, -0.7, 0.4)
-    for name, angle in zip(arm.names, posture, strict=True):
-        data.joint(name).qpos[0] = angle
-    mujoco.mj_kinematics(model, data)
-    pose = arm.pose(posture)
-    assert pose.translation().tolist() == pytest.approx(data.site("grasp").xpos.tolist(), abs=1e-9)
-    assert pose.rotation().as_matrix().ravel().tolist() == pytest.approx(data.site("grasp").xmat.tolist(), abs=1e-9)
+    has_the_hand_there(Arm(folder), robot("g1", folder).compile(), BENT)
 
 
 @pytest.mark.parametrize(
