@@ -10,6 +10,7 @@ import msgspec
 
 from crew.contracts.codes import Code
 from crew.contracts.contract import Contract
+from crew.contracts.language.along import left_behind
 from crew.contracts.language.exclusion import violation
 from crew.contracts.language.licence import claims, fits, licensed_values, resolved, same, shown, used_slots
 from crew.contracts.language.mention import ROBOT_KINDS, Direction, Mention, MentionKind, Reading
@@ -48,6 +49,7 @@ def check_containment(reading: Reading, instance: Instance, rules: Rules, *, con
         or _asked(case)
         or _order(case)
         or _words(case)
+        or _along(case)
         or (None if confirmed else unread(reading))
     )
 
@@ -249,6 +251,15 @@ def _words(case: Case) -> Finding | None:
             message = f"'{action.text}' in the request is not done by the plan ({case.contract.name}); {missing}"
             return Finding(code=Code.REQUEST_DROPPED, message=message, field="steps", span=action.span)
     return None
+
+
+def _along(case: Case) -> Finding | None:
+    """What the plan takes along was asked to go along."""
+    thing = left_behind(case.reading, case.contract, case.rules)
+    if thing is None:
+        return None
+    message = f"the request does not say that '{thing.text}' is to be taken along; say what is to be carried where"
+    return Finding(code=Code.AMBIGUOUS_REQUEST, message=message, field="request", span=thing.span)
 
 
 def _missing(case: Case, action: Mention) -> str | None:

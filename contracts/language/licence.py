@@ -25,7 +25,8 @@ def licensed_values(reading: Reading, slot: Slot, rules: Rules) -> tuple[SlotVal
 
     What nobody knows is licensed verbatim where a name of this slot could stand: it closes the slot to everything else.
     """
-    named = [m for m in reading.wanted if _licenses(m, slot, reading) and not any(v in rules.parts for v in m.values)]
+    fitting = (m for m in reading.wanted if _licenses(m, slot, reading, rules))
+    named = [m for m in fitting if not any(v in rules.parts for v in m.values)]
     if named:
         first = Direction.FROM if slot.said_from else Direction.TO
         ranked = sorted(named, key=lambda m: m.direction is not first)
@@ -95,15 +96,32 @@ def shown(value: SlotValue, crew: Crew) -> str:
     return value if isinstance(value, str) else f"{value:g}"
 
 
-def _licenses(mention: Mention, slot: Slot, reading: Reading) -> bool:
+def _licenses(mention: Mention, slot: Slot, reading: Reading, rules: Rules) -> bool:
     if not fits(mention, slot):
         return False
     if mention.kind is MentionKind.OBJECT and mention.direction in (Direction.TO, Direction.FROM):
         return False  # "carry the bottle to the cube": an object is no place
     if not slot.said_from or mention.direction is not Direction.AT:
         return (mention.direction is Direction.FROM) is slot.said_from
-    goals = (m for m in reading.wanted if m.direction is Direction.TO or m.kind is MentionKind.VALUE)
+    goals = [m for m in reading.wanted if m.direction is Direction.TO or m.kind is MentionKind.VALUE]
+    if _put_there(mention, reading, rules):
+        goals = [m for m in goals if m.governor == mention.governor]
     return any(m is not mention for m in goals)  # "the bottle on table_a to room_a"
+
+
+def _put_there(mention: Mention, reading: Reading, rules: Rules) -> bool:
+    """Whether the verb of a place may mean to put something at it: `put the cube on table_a and send the dog to room_a`."""
+    means = reading.mentions[mention.governor].means if mention.governor is not None else ()
+    patterns = (
+        (skill, pattern)
+        for ref in means
+        if (contract := rules.contracts.get(ref.contract)) is not None and (step := contract.step(ref.step)) is not None
+        for pattern in step.do
+        if pattern.skill == ref.skill
+        for kind in rules.kinds.values()
+        if (skill := kind.skill(ref.skill)) is not None
+    )
+    return any(s.puts and str(p.args.get(s.puts[1], "")).startswith("$") for s, p in patterns)
 
 
 def _could_fill(mention: Mention, slot: Slot, reading: Reading) -> bool:

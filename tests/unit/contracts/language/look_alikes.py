@@ -391,4 +391,10 @@ I can't carry the bottle, nor should the dog
 take the bottle and put it on the shelf
 pick up the cube and put it on table_a or table_b
 grab the cube for my brother
+put the cube on table_a and send the dog to charge
+move the dog to room_a, and afterwards put the bottle on table_a
+place the bottle on the second table, then walk the dog to the drop off
+pick up the cube and send the dog to room_a
+grab the bottle and walk the dog to the charger
+lift the bottle up, the dog shall go to room_b
 """
