@@ -10,6 +10,7 @@ from functools import cache
 from itertools import pairwise
 from typing import NamedTuple
 
+from crew.contracts.language.entry import stands
 from crew.contracts.language.figures import is_numeral
 from crew.contracts.language.frames import FRAMES, OPENINGS, TAGS, phrases
 from crew.contracts.language.inflect import Form
@@ -34,6 +35,7 @@ from crew.contracts.language.stories import (
     SUBJECTS,
 )
 from crew.contracts.language.tokens import Shape, Token
+from crew.contracts.language.whereabouts import WHERE
 from crew.contracts.language.words import REQUESTER
 
 _BOUNDS = frozenset(".!?;:,-()\u2026")
@@ -42,6 +44,8 @@ _PEOPLE = frozenset(("him", "her", "them", "he", "she", "they", "his", "their"))
 _AUXILIARY = frozenset(
     ("have", "has", "get", "gets", "got", "need", "needs", "want", "wants", "like", "likes", "give", "make")
 )
+_WISHED = frozenset(("want", "need", "have", "get", "would", "could", "should", "might"))
+_SHOWN = dict.fromkeys(ROBOT_KINDS, "@robot") | {MentionKind.LOCATION: "@place"}
 _LONGEST_SUBJECT = 4
 _LONGEST_CLAUSE = 24
 
@@ -79,6 +83,10 @@ def pare(text: str, tokens: list[Token], lexicon: Lexicon) -> Pared:
             gone.update(dropped)
             if dropped:
                 noted.append(_unread(text, tokens, dropped))
+        elif clause.whole and any(
+            _harmless(tokens, part, lexicon, {}) is not None for part in _parts_of(tokens, clause)
+        ):
+            continue
         elif not any(is_numeral(tokens, k) for k in said) and _tells(tokens, clause, lexicon):
             gone.update(said)
             asked.append(_unread(text, tokens, range(clause.first, clause.after)))
@@ -104,14 +112,18 @@ def _clauses(tokens: list[Token]) -> Iterator[Clause]:
 
 def _parts(tokens: list[Token], begin: int, end: int) -> Iterator[Clause]:
     closed_by = tokens[end].norm if end < len(tokens) else ""
-    cuts = [k for k in range(begin, end) if _joins(tokens, k)]
-    yield Clause(begin, _past_joined(tokens, begin, end), end, closed_by, whole=True)
-    edges = sorted({begin, *cuts, end})
-    for start, after in pairwise(edges):
-        if (start, after) != (begin, end):
-            yield Clause(
-                start, _past_joined(tokens, start, after), after, closed_by if after == end else "", whole=False
-            )
+    whole = Clause(begin, _past_joined(tokens, begin, end), end, closed_by, whole=True)
+    yield whole
+    yield from _parts_of(tokens, whole)
+
+
+def _parts_of(tokens: list[Token], whole: Clause) -> Iterator[Clause]:
+    """What joining words part a clause into; nothing where there are none."""
+    cuts = (k for k in range(whole.start + 1, whole.after) if _joins(tokens, k))
+    for start, after in pairwise((whole.start, *cuts, whole.after)):
+        if (start, after) != (whole.start, whole.after):
+            closed_by = whole.closed_by if after == whole.after else ""
+            yield Clause(start, _past_joined(tokens, start, after), after, closed_by, whole=False)
 
 
 def _joins(tokens: list[Token], at: int) -> bool:
@@ -139,6 +151,8 @@ def _harmless(tokens: list[Token], clause: Clause, lexicon: Lexicon, kept: dict[
         return whole
     if clause.whole and _fits(OWN_CHOICE, said):
         return whole
+    if _brought(tokens, clause, lexicon) and _fits(WHERE, _in_kinds(tokens, clause, lexicon)):
+        return whole
     value = _person(lexicon)
     if value and _fits(ABOUT_A_PERSON, said) and not _names(tokens, clause, lexicon, but=MentionKind.VALUE):
         _keep_person(tokens, clause, value, kept)
@@ -150,6 +164,25 @@ def _harmless(tokens: list[Token], clause: Clause, lexicon: Lexicon, kept: dict[
     called = _in_front_of(ROBOT_KINDS, CALLED, tokens, clause, lexicon)
     called = called or _in_front_of((MentionKind.OBJECT,), OUT_OF_REACH, tokens, clause, lexicon)
     return None if called is None else range(clause.start, called)
+
+
+def _brought(tokens: list[Token], clause: Clause, lexicon: Lexicon) -> bool:
+    """Whether something is asked for by whoever speaks: `bring me the bottle`, `I need the cube`."""
+    norms = [t.norm for k, t in enumerate(tokens) if k not in range(clause.start, clause.after)]
+    wished = any(who in ("i", "we") and verb in _WISHED for who, verb in pairwise(norms))
+    return bool(lexicon.to_requester) and (wished or bool({"me", "us", "my", "i'd", "here"} & set(norms)))
+
+
+def _in_kinds(tokens: list[Token], clause: Clause, lexicon: Lexicon) -> str:
+    """The words of a clause, with `@robot` and `@place` for the names of the crew."""
+    said, at = [], clause.first
+    while at < clause.after:
+        names = (e for e in lexicon.names.get(tokens[at].norm, ()) if stands(tokens, at, e.words))
+        kinds = ((e, _SHOWN.get(e.kind)) for e in names if at + len(e.words) <= clause.after)
+        name, shown = next(((e, kind) for e, kind in kinds if kind), (None, tokens[at].norm))
+        said.append(str(shown))
+        at += 1 if name is None else len(name.words)
+    return " ".join(said)
 
 
 def _heading(tokens: list[Token], clause: Clause, lexicon: Lexicon) -> range | None:

@@ -12,12 +12,21 @@ from crew.contracts.language.inflect import Form, inflections
 from crew.contracts.language.mention import MentionKind, StepRef
 from crew.contracts.language.naming import entities
 from crew.contracts.language.rewrites import wording_words
-from crew.contracts.language.spelling import SHORTEST, Vocabulary
+from crew.contracts.language.spelling import SHORTEST_SWAPPED, Vocabulary
 from crew.contracts.language.stories import told_words
 from crew.contracts.language.synonyms import also
 from crew.contracts.language.templates import fixed_phrases, opening_phrases
 from crew.contracts.language.tokens import Token
-from crew.contracts.language.words import FUNCTION_WORDS, REQUESTER, ROLE_ORDER, SILENT, SINGLE_WORDS, TURNING, Role
+from crew.contracts.language.words import (
+    FUNCTION_WORDS,
+    LINKING,
+    REQUESTER,
+    ROLE_ORDER,
+    SILENT,
+    SINGLE_WORDS,
+    TURNING,
+    Role,
+)
 from crew.contracts.plan import Zone
 from crew.contracts.site import Rules
 from crew.contracts.skill import Kind, Skill
@@ -67,7 +76,8 @@ class Lexicon(msgspec.Struct, frozen=True, kw_only=True, dict=True):
             known=frozenset(word for e in entries for word in e.words) | SINGLE_WORDS | wording_words() | told_words(),
             names=frozenset(word for found in self.names.values() for e in found for word in e.words),
             silent=frozenset(word for word, e in single.items() if e.role in SILENT),
-            pronouns=frozenset(w for w, e in single.items() if e.role is Role.PRONOUN and len(w) >= SHORTEST),
+            pronouns=frozenset(w for w, e in single.items() if e.role in LINKING and len(w) >= SHORTEST_SWAPPED)
+            | _PARTS,
             turning=frozenset(word for word, e in single.items() if e.role in TURNING),
         )
 
@@ -156,6 +166,8 @@ def _actions(rules: Rules, named: list[Entry]) -> Iterator[Entry]:
                 yield _action(words, tuple(_asked_refs(contract)), Form.BASE)
 
 
+_PARTS = frozenset(("back", "down", "when", "once"))
+"""Words of longer phrases whose slips are recognised."""
 _HARMLESS = frozenset(w for phrases in FUNCTION_WORDS.values() for phrase in phrases for w in phrase.split()[:1])
 
 

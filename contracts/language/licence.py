@@ -110,7 +110,7 @@ def _licenses(mention: Mention, slot: Slot, reading: Reading, rules: Rules) -> b
 
 
 def _put_there(mention: Mention, reading: Reading, rules: Rules) -> bool:
-    """Whether the verb of a place may mean to put something at it: `put the cube on table_a and send the dog to room_a`."""
+    """Whether something may be put at a place: `put the cube on table_a and send the dog to room_a`."""
     means = reading.mentions[mention.governor].means if mention.governor is not None else ()
     patterns = (
         (skill, pattern)

@@ -52,15 +52,10 @@ def respell(text: str, tokens: list[Token], lexicon: Lexicon) -> Respelled:
 
 
 def _sure(text: str, token: Token, meant: str, words: Vocabulary) -> bool:
-    """Whether a slip can be nothing else: a word that was looked up, no name, and no part of one.
-
-    Of a word of four letters, only two that were swapped count.
-    """
+    """Whether a slip can be nothing else: a word that was looked up, no name, and no part of one."""
     raw = text[token.start : token.end]
     begins = not text[: token.start].rstrip() or text[: token.start].rstrip()[-1] in ".!?:\n"
     plain = raw.islower() or (begins and raw[1:].islower())
     joined = text[token.end : token.end + 1] in ("_", "-") or text[token.start - 1 : token.start] in ("_", "-")
     looked_up = meant in LOOKED_UP and token.norm not in DOUBTFUL
-    if len(meant) == SHORTEST and not swapped(token.norm, meant):
-        return False
     return plain and not joined and looked_up and not any(within_one(token.norm, turn) for turn in words.turning)

@@ -18,13 +18,15 @@ class Vocabulary(NamedTuple):
     silent: frozenset[str]
     """Words that say nothing by themselves."""
     pronouns: frozenset[str]
-    """Words for what was named before: only two letters that were swapped in one of them are recognised."""
+    """Words for what was named before, and prepositions: only two letters that were swapped in one are recognised."""
     turning: frozenset[str]
     """Words that turn a request round: negations, conditions, corrections."""
 
 
 SHORTEST = 4
 """Letters of the shortest name or verb that is recognised."""
+SHORTEST_SWAPPED = 3
+"""The same, where only two letters were swapped."""
 
 
 def slips(word: str, meant: str) -> bool:
@@ -45,7 +47,7 @@ def swapped(word: str, meant: str) -> bool:
 
 def swapped_short(word: str, known: Iterable[str]) -> str | None:
     """The one known word of three letters that was meant, two of which were swapped."""
-    found = {other for other in known if len(word) == 3 and word != other and _swapped(word, other)}
+    found = {other for other in known if len(word) == SHORTEST_SWAPPED and word != other and _swapped(word, other)}
     return found.pop() if len(found) == 1 else None
 
 

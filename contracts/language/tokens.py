@@ -39,6 +39,11 @@ _CONTRACTIONS = {
     "where's": "where is", "wanna": "want to", "gonna": "going to", "gotta": "have to", "gimme": "give me",
     "lemme": "let me",
 }  # fmt: skip
+_NO_APOSTROPHE = {
+    "im": "i'm", "ive": "i've", "youre": "you're", "theyre": "they're", "hes": "he's", "shes": "she's",
+    "thats": "that's", "theres": "there's", "weve": "we've", "theyve": "they've", "youve": "you've",
+}  # fmt: skip
+"""Contractions that are no other word without their apostrophe."""
 _KEPT = frozenset(("let's", "it's", "that's", "there's", "he's", "she's", "who's", "what's"))
 
 
@@ -64,6 +69,7 @@ def _add_number(tokens: list[Token], raw: str, start: int, end: int) -> None:
 def _add_word(tokens: list[Token], raw: str, start: int, end: int) -> None:
     norm = raw if raw.isascii() else unicodedata.normalize("NFKC", raw)
     norm = norm.casefold().replace("\u2019", "'")
+    norm = _NO_APOSTROPHE.get(norm, norm)
     last = tokens[-1] if tokens else None
     if last is not None and last.end == start and last.shape in (Shape.NUMBER, Shape.ODD) and norm not in METRES:
         tokens[-1] = Token(last.norm + norm, last.start, end, Shape.ODD)  # "2nd", "1e5": no number, and no word

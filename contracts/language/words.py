@@ -179,6 +179,8 @@ ROLE_ORDER: tuple[Role, ...] = (
 
 SILENT = frozenset((Role.FILLER, Role.OPENER, Role.DETERMINER, Role.AND, Role.MODAL))
 """Roles of words whose slips change nothing."""
+LINKING = frozenset((Role.PRONOUN, Role.TO, Role.AT, Role.FROM, Role.OVER, Role.NEAR, Role.WITH, Role.THEN, Role.AFTER))
+"""Roles of words that name nothing, and whose slips are recognised where two letters were swapped."""
 TURNING = frozenset((Role.NOT, Role.NO, Role.EXCEPT, Role.AVOID, Role.CONDITION, Role.ALTERNATIVE, Role.CORRECTION))
 """Roles of words that turn a request round."""
 

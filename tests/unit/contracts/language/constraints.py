@@ -42,5 +42,6 @@ CONSTRAINTS = (
     "he said", "she wrote", "it says here", "what if", "not because I'm tired", "not that it's urgent",
     "my hands are full",
     "somebody asked me not to", "I wonder", "don't", "please don't", "without me", "except at night",
-    "he doesn't want it",
+    "he doesn't want it", "I'm standing on the track", "we are sitting in its path", "I'm by the fuse box",
+    "I'm at the limit", "I can't leave the baby alone",
 )  # fmt: skip

@@ -397,4 +397,14 @@ place the bottle on the second table, then walk the dog to the drop off
 pick up the cube and send the dog to room_a
 grab the bottle and walk the dog to the charger
 lift the bottle up, the dog shall go to room_b
+bring me the bottle, I'm in the way
+bring me the bottle, I'm right behind it
+bring me the bottle, I am in danger
+bring me the bottle, I'm out
+bring me the bottle when I'm in the other room
+bring me the bottle, I am on the floor in front of the dog
+hand me the cube, my hands are full
+take the bottle to room_a, I'm standing next to the dog
+send the dog to room_a, I'm sitting in the corridor
+send the dog to room_b, I can't get up from the floor
 """

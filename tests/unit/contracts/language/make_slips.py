@@ -1,9 +1,10 @@
 """Writes contracts/language/slips.py: which slips of the crews' words may be another English word.
 
-`python -m tests.unit.contracts.language.make_slips KNOWN COMMON`: text files with a word a line, KNOWN as large as
-can be had (a slip that stands in it is a word by itself), COMMON without rarities (a slip that could be meant for one
-of these, too, is doubtful). The shipped table was made from english-words 2.0.2 (web2 and gcide), symspellpy 6.10.1 and
-pyspellchecker 0.9.1, all MIT; COMMON is what the latter two count 300,000 and 100 times or more. Nothing of them is
+`python -m tests.unit.contracts.language.make_slips KNOWN COMMON`: text files with a word a line, KNOWN of all words
+that people write (a slip that stands in it is a word by itself), COMMON without rarities (a slip that could be meant
+for one of these, too, is doubtful). The shipped table was made from the word counts of symspellpy 6.10.1 and
+pyspellchecker 0.9.1, both MIT: KNOWN is what either counts at all, COMMON what they count 300,000 and 100 times or
+more. A word that only a dictionary knows (`sned`, to lop) is typed by nobody who commands robots. Nothing of them is
 needed to run.
 """
 
@@ -14,7 +15,7 @@ from pathlib import Path
 
 import crew
 from crew.contracts.language.lexicon import lexicon_of
-from crew.contracts.language.spelling import SHORTEST, slips, swapped
+from crew.contracts.language.spelling import SHORTEST, SHORTEST_SWAPPED, slips, swapped
 from crew.library import load_rules
 
 TABLE = Path(crew.__file__).parent / "contracts" / "language" / "slips.py"
@@ -29,11 +30,11 @@ from crew.contracts.language.words import word_set
 
 
 def looked_up() -> set[str]:
-    """The names, verbs and pronouns of the shipped crews that are long enough."""
+    """The names, verbs, pronouns and prepositions of the shipped crews that are long enough."""
     crews = ("air_ground", "humanoid_quadruped")
     known = (lexicon_of(load_rules(crew_name)).vocabulary for crew_name in crews)
     words = (w for vocabulary in known for w in vocabulary.names | vocabulary.pronouns)
-    return {w for w in words if len(w) >= SHORTEST and w.isalpha()}
+    return {w for w in words if len(w) >= SHORTEST_SWAPPED and w.isalpha()}
 
 
 def typed(word: str) -> Iterator[str]:
@@ -55,7 +56,7 @@ def origins(slip: str) -> set[str]:
 
 def doubtful(word: str, known: set[str], common: set[str]) -> set[str]:
     """Slips of a word that are a word by themselves, or may be meant for another."""
-    read = swapped if len(word) == SHORTEST else slips
+    read = swapped if len(word) < SHORTEST else slips
     made = {slip for slip in typed(word) if read(slip, word)}
     return {slip for slip in made if slip in known or (origins(slip) & common) - {word}}
 

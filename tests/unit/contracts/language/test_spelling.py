@@ -51,9 +51,9 @@ def test_no_slip_turns_a_request_round(crew: str) -> None:
 @pytest.mark.parametrize(
     ("text", "word", "meant"),
     [
-        ("sned the rover to base", "sned", "send"),
+        ("snd the rover to base", "snd", "send"),
         ("send the rover to bse", "bse", "base"),
-        ("search the north halff", "halff", "half"),
+        ("search the noth half", "noth", "north"),
         ("send the Rovre to base", "Rovre", "rover"),
     ],
 )
@@ -73,11 +73,13 @@ def test_a_slip_in_a_name_or_verb_is_read_and_asked_back(text: str, word: str, m
         ("send the rover to bsae", "bsae", "base"),
         ("search the north hlaf", "hlaf", "half"),
         ("find the hiker and send the rover to tehm", "tehm", "them"),
+        ("find the hiker and send the rover to hmi", "hmi", "him"),
+        ("sned the rover bakc to bsae", "sned", "send"),
     ],
 )
 def test_a_slip_that_can_be_nothing_else_is_read_and_shown(text: str, word: str, meant: str, rules: Rules) -> None:
     assert judge(text, rules).outcome == "accepted"
-    assert [(n.word, n.meant) for n in read_request(text, lexicon_of(rules)).noted] == [(word, meant)]
+    assert (word, meant) in [(n.word, n.meant) for n in read_request(text, lexicon_of(rules)).noted]
 
 
 @pytest.mark.parametrize("crew", list(NEGATED))
