@@ -1,6 +1,7 @@
 """A name that is said again in other words: `the dog, er, the quadruped I mean` corrects nothing.
 
-Only where both names mean the same one thing, or the second is one of the robots that the first may mean.
+Only where both names mean the same one thing, where the second is one of the robots that the first may mean, or where
+it says whom a pronoun means: `drive to him, to the climber I mean`.
 """
 
 from crew.contracts.language.entry import Entry, Words, stands_all
@@ -8,15 +9,37 @@ from crew.contracts.language.lexicon import Lexicon, match
 from crew.contracts.language.lookahead import ARTICLES
 from crew.contracts.language.mention import ROBOT_KINDS, MentionKind
 from crew.contracts.language.rewrites import HESITATIONS
-from crew.contracts.language.tokens import Token
+from crew.contracts.language.tokens import Shape, Token
+from crew.contracts.language.words import AFFECTIVE, IN_NEED
 
-_LINKS: tuple[Words, ...] = (
-    ("i", "mean"), ("i", "meant"), ("or", "rather"), ("sorry",), ("that", "is"), ("that", "is", "to", "say"),
-    ("i", "should", "say"), ("or", "should", "i", "say"), ("correction",), ("excuse", "me"), ("well",), ("you", "know"),
+_LINKS: tuple[Words, ...] = tuple(
+    tuple(said.split())
+    for said in (
+        "i mean", "i meant", "or rather", "sorry", "that is", "that is to say", "i should say", "or should i say",
+        "correction", "excuse me", "pardon", "pardon me", "i beg your pardon", "beg your pardon", "well", "you know",
+        "in other words", "namely", "meaning", "which is", "which means", "rather", "what i mean is", "oops", "as in",
+        "to be precise", "to be exact", "to be clear", "a k a", "also known as", "aka", "or",
+    )
 )  # fmt: skip
-_TAILS: tuple[Words, ...] = (("i", "mean"), ("i", "meant"), ("rather",), ("that", "is"), ("i", "should", "say"))
-_MARKS = frozenset((",", "-", "\u2026", "(", ")"))
-_THINGS = (*ROBOT_KINDS, MentionKind.OBJECT, MentionKind.LOCATION)
+_OR: Words = ("or",)
+_TAILS: tuple[Words, ...] = tuple(
+    tuple(said.split())
+    for said in (
+        "i mean", "i meant", "rather", "that is", "i should say", "that is to say", "to be precise", "to be exact",
+        "i ought to say", "as i should say", "as i'm supposed to say", "as i am supposed to say", "as you call it",
+        "as they call it", "as we call it", "as it's called", "as it is called", "if you like", "if you prefer",
+        "if you will", "so to speak", "of course", "to be clear", "i suppose i should say", "is what i mean",
+        "is what i meant",
+    )
+)  # fmt: skip
+_MARKS = frozenset((",", "-", "\u2026", "(", ")", ";", "."))
+_KINDS = (*ROBOT_KINDS, MentionKind.OBJECT, MentionKind.LOCATION, MentionKind.ZONE, MentionKind.VALUE)
+_PRONOUNS = {
+    "him": (MentionKind.VALUE,), "her": (MentionKind.VALUE,), "them": (MentionKind.VALUE,),
+    "it": (MentionKind.OBJECT, *ROBOT_KINDS),
+}  # fmt: skip
+_PLACED = frozenset(("to", "into", "in", "at", "on", "onto", "over", "for", "from", "of"))
+_WHOLE = frozenset(("everything", "all", "on", "in", "of"))
 
 
 def restated(tokens: list[Token], lexicon: Lexicon) -> list[Token]:
@@ -24,58 +47,81 @@ def restated(tokens: list[Token], lexicon: Lexicon) -> list[Token]:
     out: list[Token] = []
     at = 0
     while at < len(tokens):
-        name = match(lexicon.names, tokens, at)
-        end = _again(tokens, at, name, lexicon) if name is not None and name.kind in _THINGS else None
-        if end is None or name is None:
+        found = _again(tokens, at, lexicon) if tokens[at].shape is Shape.WORD else None
+        if found is None:
             out.append(tokens[at])
             at += 1
             continue
-        again, at = end
+        again, at = found
         out.extend(again)
     return out
 
 
-def _again(tokens: list[Token], at: int, name: Entry, lexicon: Lexicon) -> tuple[list[Token], int] | None:
+def _again(tokens: list[Token], at: int, lexicon: Lexicon) -> tuple[list[Token], int] | None:
     """The name that follows in other words, and where it is over."""
-    begin = at + len(name.words)
-    second, said = _past_links(tokens, begin)
-    named = second
-    while named < len(tokens) and tokens[named].norm in ARTICLES:
-        named += 1
-    other = match(lexicon.names, tokens, named) if begin < named < len(tokens) else None
-    if other is None or not _same(name, other) or tokens[at + len(name.words) - 1].possessive:
+    name = match(lexicon.names, tokens, at)
+    begin = at + (1 if name is None or name.kind is MentionKind.ACTION else len(name.words))
+    if tokens[begin - 1].possessive:
+        return None
+    second, links = _past_links(tokens, begin)
+    named = _past_opening(tokens, second, at, name)
+    other = match(lexicon.names, tokens, named) if begin < second < len(tokens) and named < len(tokens) else None
+    if other is None or not _same(tokens[at], name, other):
         return None
     end = named + len(other.words)
     tail = next((t for t in _TAILS for k in (end, end + 1) if stands_all(tokens, k, t) and _marks(tokens, end, k)), ())
+    if not tail and not links - {_OR}:
+        return None
     after = end
     if tail:
         after += (tokens[end].norm in _MARKS) + len(tail)
-    if not said and not tail:
-        return None
-    after += after < len(tokens) and tokens[after].norm in _MARKS and begin < second
+    after += after < len(tokens) and tokens[after].norm in (",", "-", ")") and begin < second
     return tokens[named:end], after
 
 
-def _past_links(tokens: list[Token], at: int) -> tuple[int, bool]:
-    """Past marks, hesitations and corrections, and whether there was one of the latter."""
-    said = False
+def _past_links(tokens: list[Token], at: int) -> tuple[int, set[Words]]:
+    """Past marks, hesitations and corrections, and which there were of the latter two."""
+    said: set[Words] = set()
     while at < len(tokens):
-        link = next((words for words in _LINKS if stands_all(tokens, at, words)), ())
-        if tokens[at].norm not in _MARKS and tokens[at].norm not in HESITATIONS and not link:
+        link = max((words for words in _LINKS if stands_all(tokens, at, words)), key=len, default=())
+        if tokens[at].norm in HESITATIONS:
+            link = (tokens[at].norm,)
+        elif tokens[at].norm not in _MARKS and not link:
             break
-        said = said or bool(link) or tokens[at].norm in HESITATIONS
+        said |= {link} if link else set()
         at += len(link) or 1
     return at, said
+
+
+def _past_opening(tokens: list[Token], at: int, first: int, name: Entry | None) -> int:
+    """Past the preposition that stood before the first name, articles, and adjectives that pick nothing out."""
+    owner = first - 1
+    while owner >= 0 and tokens[owner].norm in ARTICLES:
+        owner -= 1
+    link = tokens[at].norm if at < len(tokens) else ""
+    at += link == "to" or (link in _PLACED and owner >= 0 and tokens[owner].norm == link)
+    passed = ARTICLES | AFFECTIVE | (IN_NEED - {"there"})
+    if name is not None and name.kind is MentionKind.ZONE:
+        passed |= _WHOLE
+    while at < len(tokens) and tokens[at].norm in passed:
+        at += 1
+    return at
 
 
 def _marks(tokens: list[Token], begin: int, end: int) -> bool:
     return all(t.norm in _MARKS for t in tokens[begin:end])
 
 
-def _same(name: Entry, other: Entry) -> bool:
-    """Whether the second name ends at what the first one named."""
+def _same(said: Token, name: Entry | None, other: Entry) -> bool:
+    """Whether the second name ends at what the first word or name stood for."""
+    if other.kind not in _KINDS or len(other.values) != 1 or other.plural:
+        return False
+    if other.kind in _PRONOUNS.get(said.norm, ()):
+        return True
+    if name is None:
+        return said.norm in other.words  # "the water, the water bottle I mean"
     robots = name.kind in ROBOT_KINDS and other.kind in ROBOT_KINDS
     if not robots and name.kind is not other.kind:
         return False
     narrower = set(other.values) <= set(name.values) if robots else other.values == name.values
-    return narrower and len(other.values) == 1 and not other.plural and not name.plural
+    return narrower and not name.plural

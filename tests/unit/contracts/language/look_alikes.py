@@ -208,6 +208,11 @@ rover to (1, 1), um, (2, 2)
 rover to base, er, (2, 2)
 search the north half, er, the south half
 send the drone, um, the rover, to base
+search the north, that is, the east
+search the north half, I mean everything
+send the rover to base, to the drone I mean
+find the hiker, well, the car
+send the drone, I mean the rover, to base
 """
 
 INDOOR = """
@@ -407,4 +412,10 @@ hand me the cube, my hands are full
 take the bottle to room_a, I'm standing next to the dog
 send the dog to room_a, I'm sitting in the corridor
 send the dog to room_b, I can't get up from the floor
+take the bottle to room_a, I mean room_b
+take the bottle, or the cube I mean, to room_a
+put it on table_a, er, table_b
+take the bottle, sorry, the cube, to room_a
+send the dog to the charger, that is, the dropoff
+hand me the water, the soda I mean
 """
