@@ -17,6 +17,7 @@ from crew.contracts.language.inflect import Form
 from crew.contracts.language.lexicon import Lexicon, match
 from crew.contracts.language.lookahead import ARTICLES
 from crew.contracts.language.mention import ROBOT_KINDS, MentionKind, Unread
+from crew.contracts.language.speaker import OF_THEMSELVES
 from crew.contracts.language.stories import (
     ABOUT_A_PERSON,
     CALLED,
@@ -31,11 +32,11 @@ from crew.contracts.language.stories import (
     OUT_OF_REACH,
     OWN_CHOICE,
     POSSESSORS,
+    PURPOSES,
     SPEAKS,
     SUBJECTS,
 )
 from crew.contracts.language.tokens import Shape, Token
-from crew.contracts.language.whereabouts import WHERE
 from crew.contracts.language.words import REQUESTER
 
 _BOUNDS = frozenset(".!?;:,-()\u2026")
@@ -149,9 +150,12 @@ def _harmless(tokens: list[Token], clause: Clause, lexicon: Lexicon, kept: dict[
     whole = range(clause.start, clause.after)
     if _fits(HARMLESS, said) and not _names(tokens, clause, lexicon, but=MentionKind.VALUE):
         return whole
+    purpose = clause.whole and _fits(PURPOSES, _said(tokens, clause.start, clause.after))
+    if purpose and not _names(tokens, clause, lexicon):
+        return whole
     if clause.whole and _fits(OWN_CHOICE, said):
         return whole
-    if _brought(tokens, clause, lexicon) and _fits(WHERE, _in_kinds(tokens, clause, lexicon)):
+    if _brought(tokens, clause, lexicon) and _fits(OF_THEMSELVES, _in_kinds(tokens, clause, lexicon)):
         return whole
     value = _person(lexicon)
     if value and _fits(ABOUT_A_PERSON, said) and not _names(tokens, clause, lexicon, but=MentionKind.VALUE):

@@ -200,10 +200,20 @@ def _words(pieces: list[Piece], at: int) -> tuple[str, ...]:
 
 
 def _alone(pieces: list[Piece], at: int) -> bool:
-    """Nothing but one name, one place and soft words: whatever else was said would need a verb of its own."""
-    named = [p for p in pieces if p.is_entity]
+    """Nothing but one name, one place and soft words: whatever else was said would need a verb of its own.
+
+    The robot that does it may follow: `cube to room_b, by dog`.
+    """
+    named = [p for k, p in enumerate(pieces) if p.is_entity and not (k > at and _does_it(pieces, k))]
     odd = (Role.UNREAD, Role.WORD, Role.NOT, Role.NO, Role.EXCEPT, Role.AVOID, Role.AND, Role.BE, Role.PRONOUN)
     return len(named) == 2 and not any(p.role in odd for p in pieces)
+
+
+def _does_it(pieces: list[Piece], at: int) -> bool:
+    """`by the dog`, `on the dog`: who takes a thing where it shall go."""
+    link = before(pieces, at, SOFT - {Role.FILLER})
+    said = link is not None and (link.role is Role.WITH or link.norm in ("on", "onto"))
+    return said and pieces[at].is_robot
 
 
 def _first_of_name(pieces: list[Piece], at: int) -> int:

@@ -113,6 +113,9 @@ HARMLESS: tuple[str, ...] = (
     "(?: for)?(?: today| now| one day| already)?",
     "(?:it's|he's|she's) (?:done|worked|earned|had) (?:<very> )?(?:enough|hard|a rest|a break|its rest)"
     "(?: for)?(?: today| now| one day| already)?",
+    "(?:you|he|she|it|they) (?:must|might|will) be (?:<very> )*<feeling>(?: by now| now| already| too| today)?",
+    "(?:it|he|she|you) (?:has|have|'s|'ve) (?:earned|deserved) (?:it|that|this|one|a rest|a break)",
+    "(?:it's|he's|she's|you've) (?:earned|deserved) (?:it|that|this|one|a rest|a break)",
     "(?:just |or )?(?:whenever|when) (?:you're|you are) ready",
     "like|honestly|literally|seriously|basically|frankly|kinda|kind of|sort of|you see|if you like",
     "how are you(?: today| doing| doing today)?",
@@ -149,6 +152,16 @@ ABOUT_A_PERSON: tuple[str, ...] = (
 )
 """Clauses that are left out where a crew looks for a person: the person is kept for `him` and `her`."""
 
+_OCCASION = (
+    "film|show|demo|demonstration|test|tests|experiment|report|class|course|lesson|exercise|drill|training|visitors|"
+    "guests|audience|cameras|camera|children|kids|students|record|log|logbook|journal|crowd|next part|second part|"
+    "first part|next run|next step|next test|shoot|scene|take|broadcast|programme|presentation|tour|party|meeting|paper"
+)
+PURPOSES: tuple[str, ...] = (
+    f"for (?:the |our |my |a |an |this |today's |your |these |those )?(?:[a-z]+ )?(?:{_OCCASION})",
+)
+"""Clauses that say on what occasion something is wanted."""
+
 CALLS: tuple[str, ...] = (
     "this is (?:the )?<caller>(?: speaking| calling)?",
     "<caller>(?: speaking| calling| here)?",
@@ -170,7 +183,26 @@ HEADINGS: tuple[str, ...] = (
 )
 """What stands before a colon, alone or with the robot that is called."""
 LABELS: frozenset[str] = frozenset(
-    ("task", "order", "job", "mission", "request", "assignment", "tasking", "operation", "run")
+    (
+        "task",
+        "order",
+        "job",
+        "mission",
+        "request",
+        "assignment",
+        "tasking",
+        "operation",
+        "run",
+        "test",
+        "trial",
+        "check",
+        "demo",
+        "experiment",
+        "exercise",
+        "duty",
+        "errand",
+        "round",
+    )
 )
 """Nouns behind the noun of an action, in `transport order:`; they say nothing."""
 NEW: frozenset[str] = frozenset(("new", "next", "priority", "urgent", "another"))

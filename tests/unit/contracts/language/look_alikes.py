@@ -418,4 +418,12 @@ put it on table_a, er, table_b
 take the bottle, sorry, the cube, to room_a
 send the dog to the charger, that is, the dropoff
 hand me the water, the soda I mean
+hand me the bottle, I need it for an hour
+hand me the bottle, I want to play with the dog
+hand me the cube, I want to throw it at the dog
+take the bottle to room_a, I need it for an hour
+cube to room_b with care
+cube to room_b without the dog
+bottle to room_a, not by dog
+bring me the bottle for the night
 """

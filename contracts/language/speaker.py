@@ -1,8 +1,8 @@
-"""Where and how the person is to whom something is to be brought: `I'm sitting next to the humanoid`, `my hand is out`.
+"""What people say of themselves who want something brought: `I'm sitting next to the humanoid`, `I need it for my tea`.
 
 Where that person is, sensors tell; what is said of it is no part of a request that brings something to them. Of any
 other request it may be a warning, and stays. Patterns of whole clauses, no logic; `@robot` and `@place` stand for names
-of the crew, `<np>` for a thing that it does not know.
+of the crew.
 """
 
 _NOUN = r"(?!(?:way|path|line|danger|risk|limit|order|trouble|moment|time|end)\b)[a-z']+"
@@ -67,7 +67,28 @@ _COME = (
     "get about"
 )
 
-WHERE: tuple[str, ...] = (
+_USE = (
+    "play|play a game|show|drink|drink from|use|have a look at|look at|take a look at|check|measure|photograph|film|"
+    "draw|paint|wash|clean|examine|study|test|try|see|read|build|build something|build a tower|make|cook|bake|eat|"
+    "have|take my pills|take my medicine|take my tablets|take a pill|take a sip|take a drink|have a drink|have a sip|"
+    "wash down|try out|work|start|finish|fill|refill|open|keep|inspect|practise|practice|experiment|calibrate|weigh|"
+    "demonstrate|stack"
+)
+_NOT_A_TIME = (
+    "(?!(?:minute|minutes|moment|hour|hours|day|days|night|week|month|year|morning|evening|afternoon|time|while|now|"
+    "second|seconds|rest|duration|weekend|being|sake|case|safety|risk)\\b)"
+)
+_USED = f"(?:{_DETERMINER} )?(?:{_NOT_A_TIME}{_NOUN} ){{0,2}}{_NOT_A_TIME}{_NOUN}"
+
+OF_THEMSELVES: tuple[str, ...] = (
+    "(?:i|we|i'd|we'd)(?: just| really| only| do)? (?:need|want|like|would like|am going to|are going to|have|love|"
+    f"would love|got)(?: it| that| this| one)?(?: to (?:{_USE})(?: (?:it|that|this|with it|with that|some))?"
+    f"(?:(?: (?:to|with|for|on|in|at))? {_USED})?| for {_USED})(?: (?:now|soon|please|too|today|again))*",
+    f"(?:it's|it is|that's|that is) for {_USED}",
+    "(?:to|so i can|so that i can|so we can|so that we can) (?:play|drink|show|work|experiment|practise|practice)"
+    f"(?: (?:it|with it|some|with {_USED}|to {_USED}))?",
+    "(?:i'm|i am|we're|we are) (?:going|about) to (?:drink|use|play with|measure|test|show|paint|photograph|film) "
+    f"(?:it|that|this|some)(?: for {_USED})?",
     f"(?:{_CANNOT})(?: easily| quite| really| just| so well| very well)* (?:{_COME})"
     "(?: (?:so well|very well|well|easily|myself|right now|at the moment|any more|anymore|just now|now|today|"
     "quickly))*"
@@ -81,4 +102,4 @@ WHERE: tuple[str, ...] = (
     f"(?:out|open|ready|here|waiting|free|empty|held out|stretched out|outstretched|there)(?: {_AT})?{_TAIL}",
     "(?:you|you'll|you will|you can) (?:find|see|spot) me (?:right |over )?(?:here|there)?(?: ?" + _AT + ")?",
 )
-"""Clauses that say where the person is, that a hand is held out, or that they cannot come."""
+"""Clauses that say what a thing is wanted for, where the person is, that a hand is out, or that they cannot come."""
