@@ -4,37 +4,16 @@ The reading's own defects come first: a request that can be read in two ways is 
 """
 
 from collections.abc import Iterator
-from typing import NamedTuple
-
-import msgspec
 
 from crew.contracts.codes import Code
-from crew.contracts.contract import Contract
 from crew.contracts.language.along import left_behind
+from crew.contracts.language.coverage import uncovered, unknown
 from crew.contracts.language.exclusion import violation
-from crew.contracts.language.licence import claims, fits, licensed_values, resolved, same, shown, used_slots
-from crew.contracts.language.mention import ROBOT_KINDS, Direction, Mention, MentionKind, Reading
+from crew.contracts.language.finding import Case, Finding
+from crew.contracts.language.licence import licensed_values, resolved, same, shown, used_slots
+from crew.contracts.language.mention import Mention, MentionKind, Reading
 from crew.contracts.plan import Instance, InstanceStep, SlotValue
 from crew.contracts.site import Rules
-
-
-class Finding(msgspec.Struct, frozen=True, kw_only=True):
-    """Why a plan does not hold what was asked for. `span` lies in the request's text."""
-
-    code: Code
-    message: str
-    field: str = ""
-    span: tuple[int, int] | None = None
-    allowed: tuple[str, ...] = ()
-
-
-class Case(NamedTuple):
-    """One instance against one reading."""
-
-    reading: Reading
-    instance: Instance
-    contract: Contract
-    rules: Rules
 
 
 def check_containment(reading: Reading, instance: Instance, rules: Rules, *, confirmed: bool) -> Finding | None:
@@ -45,12 +24,12 @@ def check_containment(reading: Reading, instance: Instance, rules: Rules, *, con
         or _forbidden(case)
         or _licence(case)
         or _robots(case)
-        or _coverage(case)
+        or uncovered(case)
         or _asked(case)
         or _order(case)
         or _words(case)
         or _along(case)
-        or (None if confirmed else unread(reading))
+        or (None if confirmed else unread(reading) or unknown(reading))
     )
 
 
@@ -184,63 +163,6 @@ def _order(case: Case) -> Finding | None:
                 allowed=(before.text,),
             )
     return None
-
-
-def _coverage(case: Case) -> Finding | None:
-    """Everything that the request names has its place in the plan."""
-    values = _present(case)
-    acting = {item.call.robot for item in case.instance.steps}
-    for mention in case.reading.wanted:
-        if mention.kind is MentionKind.ACTION:
-            continue
-        if mention.kind in ROBOT_KINDS:
-            covered = acting >= set(mention.values) if mention.every else bool(acting & set(mention.values))
-        else:
-            covered = _holds(case, mention, values)
-        if not covered and not _claimed(case, mention):
-            message = f"'{mention.text}' in the request ({mention.name}) has no place in the plan; plan it or ask back"
-            return Finding(code=Code.REQUEST_DROPPED, message=message, field="request", span=mention.span)
-    return None
-
-
-def _present(case: Case) -> list[SlotValue]:
-    """The values that calls carry, that they publish, and that the contract's entry guards speak of."""
-    crew = case.rules.crew
-    found: list[SlotValue] = []
-    for name in used_slots(case.instance, case.contract):
-        slot, value = case.contract.slot(name), case.instance.slots.get(name)
-        if slot is not None and value is not None:
-            found.append(resolved(value, slot, crew))
-    for item in case.instance.steps:
-        kind = case.rules.kind_of(item.call.robot)
-        skill = kind.skill(item.call.skill) if kind is not None else None
-        found.extend(skill.reports if skill is not None else ())
-    roots = {condition.path.partition(".")[0] for condition in case.contract.needs if not condition.when}
-    return [*found, *(v.name for v in crew.values if v.name in roots)]
-
-
-def _holds(case: Case, mention: Mention, values: list[SlotValue]) -> bool:
-    """Whether the plan carries what a mention names; a place given as an origin is not honoured by going there."""
-    fixed = _constants(case)
-    if mention.direction is Direction.TO:
-        fixed &= set(case.rules.parts)
-    if any(v in fixed for v in mention.values):
-        return True
-    return mention.direction is not Direction.FROM and any(same(v, p) for v in mention.values for p in values)
-
-
-def _constants(case: Case) -> set[str]:
-    """Names that the contract itself writes into the calls, such as a fixed place for loading."""
-    declared = [case.contract.step(item.step) for item in case.instance.steps]
-    literals = {str(v) for step in declared if step is not None for p in step.do for v in p.args.values()}
-    return literals & {str(v) for item in case.instance.steps for v in item.call.args.values()}
-
-
-def _claimed(case: Case, mention: Mention) -> bool:
-    """Whether the mention binds a slot that no call carries (a claimed origin)."""
-    bound = claims(case.reading, case.contract, case.rules)
-    slots = [s for s in case.contract.slots if s.name in bound and s.said_from and fits(mention, s)]
-    return any(same(v, bound[s.name]) for s in slots for v in mention.values)
 
 
 def _words(case: Case) -> Finding | None:

@@ -76,13 +76,13 @@ def _none_of_them(*args: Any, **kwargs: Any) -> tuple[()]:
     return ()
 
 
-_coverage = containment._coverage
+_uncovered = containment.uncovered
 
 
 def _any_robot(case: Any) -> Any:
     """Coverage that does not look for the robots that were named."""
     others = tuple(m for m in case.reading.mentions if m.kind not in ROBOT_KINDS)
-    return _coverage(case._replace(reading=replace(case.reading, mentions=others)))
+    return _uncovered(case._replace(reading=replace(case.reading, mentions=others)))
 
 
 _availability = state._check_availability
@@ -243,9 +243,9 @@ MUTANTS: tuple[Mutant, ...] = (
     Mutant(
         "robots",
         "another robot than the named one may act",
-        ((Reading, "robots_of", _none_of_them), (containment, "_coverage", _any_robot)),
+        ((Reading, "robots_of", _none_of_them), (containment, "uncovered", _any_robot)),
     ),
-    Mutant("coverage", "what a plan drops is not noticed", ((containment, "_coverage", _nothing),)),
+    Mutant("coverage", "what a plan drops is not noticed", ((containment, "uncovered", _nothing),)),
     Mutant("asked", "what nobody asked for may be added", ((containment, "_asked", _nothing),)),
     Mutant("words", "an action word need not be done", ((containment, "_words", _nothing),)),
     Mutant("ambiguous", "a request with two readings is no obstacle", ((containment, "unclear", _nothing),)),

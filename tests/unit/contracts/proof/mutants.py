@@ -189,7 +189,7 @@ MUTANTS = (
     Mutant("approval", "an approval is not asked", "proof", put(state, "check_approval", nothing), *APPROVED),
     Mutant("any_value", "whatever was published is a fix", "proof", put(value, "_usable", _loose_places())),
     Mutant("earlier_fix", "a fix of an earlier mission will do", "proof", put(value, "_published_since", nothing)),
-    Mutant("coverage", "what a plan drops is not noticed", "proof", put(containment, "_coverage", nothing), *CARRY),
+    Mutant("coverage", "what a plan drops is not noticed", "proof", put(containment, "uncovered", nothing), *CARRY),
     Mutant("order", "the gate forgets the order of steps", "adversary", put(workflow, _TRANSITION, _transition)),
     Mutant("twice", "a step may be sent again", "adversary", put(workflow, _TRANSITION, _twice)),
     Mutant("any_phase", "steps go while a mission ends", "adversary", put(gate, "check_workflow", _any_phase)),
