@@ -9,7 +9,7 @@ from msgspec.structs import replace
 
 from crew.contracts.contract import Condition
 from crew.contracts.gate import approval, arguments, authorize, guard, state, value, workflow
-from crew.contracts.language import containment, licence
+from crew.contracts.language import containment, coverage, licence
 from crew.contracts.language.mention import ROBOT_KINDS, Reading
 from crew.contracts.mission import ending, judgement, machine, record, validation
 from crew.contracts.mission import event as ev
@@ -76,7 +76,7 @@ def _none_of_them(*args: Any, **kwargs: Any) -> tuple[()]:
     return ()
 
 
-_uncovered = containment.uncovered
+_uncovered = coverage.uncovered
 
 
 def _any_robot(case: Any) -> Any:
