@@ -8,7 +8,6 @@ from crew.contracts.language.lexicon import match
 from crew.contracts.language.lookahead import ARTICLES, Lookahead
 from crew.contracts.language.mention import ROBOT_KINDS, MentionKind
 from crew.contracts.language.piece import Piece, before, of_entry
-from crew.contracts.language.stories import is_lost
 from crew.contracts.language.words import AFFECTIVE, QUALITIES, Role
 
 _TAG_LINKS = ("and",)
@@ -35,8 +34,9 @@ class Asides(Lookahead):
         """The first aside that fits."""
         for read in (
             self._closer, self._around_person, self._spoken_like, self._own_way, self._future, self._hold_on_to,
-            self._as_far_as, self._whoever_listens, self._pointed_there, self._who_is_lost, self._once_found,
-            self._is_to, self._quality, self._down_on, self._needed, self._meant_for, self._recipient, self._impersonal,
+            self._as_far_as, self._whoever_listens, self._pointed_there,
+            self._own_finding, self._is_to, self._quality, self._down_on, self._needed,
+            self._meant_for, self._recipient, self._impersonal,
         ):  # fmt: skip
             if (piece := read(at)) is not None:
                 return piece
@@ -132,25 +132,10 @@ class Asides(Lookahead):
         alone = said and (self._clause_ends(verb + 1) or (after is not None and after.role in (Role.AT, Role.TO)))
         return Piece(at, verb + 1, Role.FILLER, norm="is needed") if alone and not asked else None
 
-    def _who_is_lost(self, at: int) -> Piece | None:
-        """`the man who got lost`: whoever is searched for is."""
-        previous = self.pieces[-1] if self.pieces else None
-        if self.tokens[at].norm not in ("who", "that") or previous is None or previous.kind is not MentionKind.VALUE:
-            return None
-        for end in range(min(at + 5, len(self.tokens)), at + 1, -1):
-            if is_lost(" ".join(t.norm for t in self.tokens[at + 1 : end])) and self._clause_ends(end):
-                return Piece(at, end, Role.FILLER)
-        return None
-
-    def _once_found(self, at: int) -> Piece | None:
-        """`as soon as she is located`: nobody else is looked for."""
+    def _own_finding(self, at: int) -> Piece | None:
+        """`once I have found him`: of that no robot knows."""
         after = bool(self.pieces) and self.pieces[-1].role is Role.AFTER
-        verb = at + 2 + (norm_at(self.tokens, at + 2) == "been")
-        known = self._action(verb) if norm_at(self.tokens, at + 1) in ("is", "has") else None
-        found = (
-            known is not None and known.form is Form.PAST and any(r.skill in self.lexicon.reports for r in known.means)
-        )
-        return Piece(at, at + 1, Role.FILLER) if after and found and self.tokens[at].norm in ("he", "she") else None
+        return Piece(at, at + 1, Role.UNREAD) if after and self.tokens[at].norm == "i" else None
 
     def _is_to(self, at: int) -> Piece | None:
         """`the drone is to search`, `the bottle is for room_b`: what shall be."""

@@ -7,7 +7,7 @@ from msgspec.structs import replace
 from crew.contracts.language.entry import Entry, Words, words_of
 from crew.contracts.language.inflect import plurals
 from crew.contracts.language.mention import MentionKind
-from crew.contracts.language.stories import PERSON_NOUNS, PERSON_PLURALS
+from crew.contracts.language.persons import LOST, PLURALS, names_of_people
 from crew.contracts.language.synonyms import places
 from crew.contracts.language.words import IN_NEED, NICKNAMES, REQUESTER, ROBOT_WORDS, SELF_WORDS, ZONE_NOUNS
 from crew.contracts.plan import SlotValue, Zone
@@ -29,13 +29,16 @@ def entities(rules: Rules) -> Iterator[Entry]:
     for thing in crew.objects:
         yield from _named(MentionKind.OBJECT, thing.name, thing.name, thing.aliases)
     for value in crew.values:
-        extra = SELF_WORDS if value.name == REQUESTER else PERSON_NOUNS if "person" in value.aliases else ()
+        extra = SELF_WORDS if value.name == REQUESTER else ()
         near = value.standoff_m > 0
         entries = list(_named(MentionKind.VALUE, value.name, value.name, (*value.aliases, *extra), near))
         yield from entries
         yield from (replace(e, words=many, plural=True) for e in entries for many in plurals(e.words))
-        if extra is PERSON_NOUNS:
-            yield from (replace(entries[0], words=(many,), plural=True) for many in PERSON_PLURALS)
+        if "person" in value.aliases:
+            people = [replace(entries[0], words=words_of(phrase)) for phrase in names_of_people()]
+            yield from people
+            yield from (replace(e, words=many, plural=True) for e in people for many in plurals(e.words))
+            yield from (replace(entries[0], words=(many,), plural=True) for many in PLURALS)
     for zone in crew.zones:
         yield from _zone_noun_variants(zone.name, zone.zone, (zone.name, *zone.aliases))
 
@@ -76,7 +79,7 @@ def _named(
     heads = {words[0] for words in spellings if len(words) == 1}
     modifiers = frozenset(w for words in spellings if words[-1] in heads for w in words[:-1])
     if near:
-        modifiers |= IN_NEED - {"there"}  # "the injured hiker"
+        modifiers |= (IN_NEED - {"there"}) | set(LOST)  # "the injured hiker"
     for words in spellings:
         yield Entry(words=words, kind=kind, name=name, values=(value,), modifiers=modifiers, near_is_at=near)
 

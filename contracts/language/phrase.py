@@ -125,7 +125,7 @@ def _join_run(out: list[Piece], run: list[Piece], head: Piece | None) -> int:
         return 1
     joins = head is not None and head.is_entity and not head.is_robot and not run[-1].possessive
     if head is not None and joins:
-        if all(w.norm in head.modifiers for w in run) or _zone_noun(run, head):
+        if all(w.norm in head.modifiers or w.norm in _felt(head) for w in run) or _zone_noun(run, head):
             head.first = run[0].first
             out.append(head)
             return 1
@@ -141,6 +141,11 @@ def _join_run(out: list[Piece], run: list[Piece], head: Piece | None) -> int:
     else:
         out.extend(run)
     return 0
+
+
+def _felt(head: Piece) -> frozenset[str]:
+    """`my missing little girl`: what tells how somebody feels about a person stands beside what tells of them."""
+    return AFFECTIVE if head.kind is MentionKind.VALUE else frozenset()
 
 
 def _bare_direction(piece: Piece) -> bool:

@@ -13,6 +13,7 @@ from crew.contracts.language.mention import Ambiguity, Direction, Mention, Menti
 from crew.contracts.language.people import people
 from crew.contracts.language.phrase import directions, hosts, loose_ends, noun_phrases
 from crew.contracts.language.piece import SOFT, Piece, before, behind
+from crew.contracts.language.portraits import portrayed
 from crew.contracts.language.reference import governors, orders, participles, place_pronouns, pronouns
 from crew.contracts.language.respell import respell
 from crew.contracts.language.rewrite import rewritten
@@ -34,6 +35,7 @@ def read_request(text: str, lexicon: Lexicon) -> Reading:
         why = f"{len(tokens)} words and marks; at most {MAX_TOKENS} are read"
         return _too_long(text, tokens[MAX_TOKENS].start, why)
     tokens, slips, turns, sure = respell(text, tokens, lexicon)
+    tokens, described = portrayed(text, tokens, lexicon)
     tokens, left_out, told = pare(text, rewritten(tokens, lexicon), lexicon)
     pieces = noun_phrases(Scanner(tokens, lexicon).scan())
     unsaid = implied_verbs(pieces, text, tokens, lexicon)
@@ -56,7 +58,7 @@ def read_request(text: str, lexicon: Lexicon) -> Reading:
     governors(pieces)
     told += _whose(text, tokens, pieces, lexicon)
     reading = _assemble(text, tokens, pieces, doubts, [*slips, *unsaid, *told], lexicon)
-    noted = tuple(sorted((*sure, *left_out), key=lambda n: n.span))
+    noted = tuple(sorted((*sure, *left_out, *described), key=lambda n: n.span))
     return replace(reading, passed_over=noted) if noted else reading
 
 

@@ -13,6 +13,7 @@ from crew.contracts.language.words import PLACE_NOUNS, Role
 _PLACES = (MentionKind.VALUE, MentionKind.LOCATION, MentionKind.POINT)
 _ROBOTS = (MentionKind.ROBOT, MentionKind.ROBOT_CLASS)
 _PEOPLE = frozenset(("him", "her", "his"))
+_ANYBODY = _PEOPLE | {"them", "they", "their"}
 _WISHES = ("want", "need", "like", "have")
 _ORDERING = frozenset((Role.THEN, Role.AFTER, Role.FIRST))
 _PASSED = SOFT | {Role.BE, Role.TO}
@@ -38,6 +39,8 @@ def _resolve(pieces: list[Piece], at: int, lexicon: Lexicon) -> str | None:
         return None
     earlier = [p for p in pieces[:at] if p.is_entity and p.direction is not Direction.FROM]
     for group in _groups(pieces, at, lexicon):
+        if group == (MentionKind.ZONE,) and _sought(pieces, pronoun, lexicon):
+            return None
         found = [p for p in earlier if p.kind in group and _able(pieces, at, p, lexicon)]
         if not found:
             continue
@@ -51,7 +54,18 @@ def _resolve(pieces: list[Piece], at: int, lexicon: Lexicon) -> str | None:
     if pronoun.norm in _PEOPLE and len({p.name for p in ahead}) == 1 and ahead[0].positive:
         pronoun.resolve(ahead[0])  # "find him, the hiker"
         return None
-    return "refers to nothing that the request names"
+    return None if _sought(pieces, pronoun, lexicon) else "refers to nothing that the request names"
+
+
+def _sought(pieces: list[Piece], pronoun: Piece, lexicon: Lexicon) -> bool:
+    """`find him, send the rover to him`: whoever a search is for, where one is asked for and nobody else is named."""
+    known = set(lexicon.reports.values())
+    searched = any(p.is_action and p.positive and any(r.skill in lexicon.reports for r in p.means) for p in pieces)
+    if pronoun.norm not in _ANYBODY or len(known) != 1 or not searched:
+        return False
+    name = known.pop()
+    pronoun.role, pronoun.kind, pronoun.name, pronoun.values = Role.MENTION, MentionKind.VALUE, name, (name,)
+    return True
 
 
 def _groups(pieces: list[Piece], at: int, lexicon: Lexicon) -> Iterator[Group]:

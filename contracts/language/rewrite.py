@@ -4,6 +4,7 @@ from collections.abc import Mapping, Sequence
 
 from crew.contracts.language.entry import Words, stands_all
 from crew.contracts.language.figures import is_numeral
+from crew.contracts.language.findings import findings
 from crew.contracts.language.lexicon import Lexicon
 from crew.contracts.language.lookahead import ARTICLES, named
 from crew.contracts.language.mention import ROBOT_KINDS, MentionKind
@@ -35,7 +36,7 @@ def rewritten(tokens: list[Token], lexicon: Lexicon) -> list[Token]:
     """The tokens of a request in plainer words."""
     out: list[Token] = []
     at = 0
-    tokens = restated(tokens, lexicon)
+    tokens = findings(restated(tokens, lexicon), lexicon)
     tokens = told([t for k, t in enumerate(tokens) if not _hesitation(tokens, k, lexicon)], lexicon)
     while at < len(tokens):
         words, plain = (

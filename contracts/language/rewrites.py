@@ -14,9 +14,6 @@ _ANYONE = "(anyone|anybody|someone|somebody|anyone out|anybody out|someone out|s
 _IS = "(there is|there's|there are|there might be|there could be)"
 
 _EYES = "(eyes on|eyes upon|sight of|a visual on|visual on|a visual of|visual contact with|eyes-on|a sighting of)"
-_WHEN = "(once|when|after|as soon as)"
-_WHO = ("it", "you", "he", "she", "they", "the drone")
-_SEES = "(spots|sights|sees|detects|spot|sight|see|detect)"
 
 REWRITES: tuple[tuple[str, str], ...] = (
     (
@@ -96,13 +93,8 @@ REWRITES: tuple[tuple[str, str], ...] = (
     ("(come|go|return|get over) (by|at|beside|next to|over to|up to) me", "come to me"),
     ("(at|to) (my|our) (position|location|current position|current location)", "to me"),
     (f"(has|have|has got|have got|has had) {_EYES}", "has found"),
-    *(
-        (f"{_WHEN} {who} (gets|catches|lays|makes|gains|obtains|establishes) {_EYES}", f"once {who} finds")
-        for who in _WHO
-    ),
     (f"(get|lay|gain|obtain|establish) {_EYES}", "find"),
     ("(has|have) (spotted|sighted|seen|detected|identified)", "has found"),
-    *((f"{_WHEN} {who} {_SEES}", f"once {who} finds") for who in _WHO),
     (
         "fly (around|about|round|across|through|all over|all around) (everywhere|the whole area|the entire area)",
         "fly over everywhere",

@@ -6,6 +6,8 @@ quantity, a permission, a warning or a condition: whoever adds a word here asks 
 
 import re
 
+from crew.contracts.language.persons import CIVIL, COMPOUNDS, FAMILY, HELPERS, REPORTED, YEARS_OLD
+
 CLASSES: dict[str, str] = {
     "i": "i|we",
     "am": "i'm|i am|we're|we are|i feel|we feel|i was|i'm feeling|i am feeling",
@@ -46,23 +48,53 @@ CLASSES: dict[str, str] = {
     "getting late|getting dark|getting cold|late already|hot today|cold today|hot in here|cold in here|"
     "getting late already|the end of the day|lunchtime|terrible|awful|dreadful|a worry|my first time|a lovely day|fun|"
     "a beautiful day|the least we can do|so exciting|the right thing",
-    "person": "<people>|victim|casualty|survivor|patient|missing person|injured person|hiker|walker|climber|runner|"
-    "jogger|camper|friend|colleague|person|someone|somebody|neighbour",
-    "people": "man|woman|boy|girl|guy|lady|gentleman|child|kid|kids|children|son|daughter|brother|sister|mother|father|"
-    "mum|mom|mummy|mommy|dad|daddy|husband|wife|grandson|granddaughter|grandmother|grandfather|grandma|grandpa|granny|"
-    "grandad|granddad|uncle|aunt|auntie|cousin|nephew|niece|fellow|chap|bloke|pal|mate|buddy|patient|friends",
+    "person": "|".join((
+        "<people>|victim|casualty|survivor|patient|missing person|injured person|hiker|person|someone|somebody|party",
+        *CIVIL, *HELPERS, *(f"{said} {noun}" for noun, many in COMPOUNDS.items() for said in many),
+    )),
+    "persons": "|".join((
+        "people|persons|children|kids|men|women|hikers|patients|friends|gentlemen|ladies|team|party|group|staff|"
+        "family|crew",
+        *(f"{noun}s" for noun in (*FAMILY, *CIVIL, *HELPERS)),
+    )),
+    "people": "|".join((*FAMILY, "kids", "children", "pal", "mate", "buddy", "patient", "friends")),
     "whose": "my|our|the|a|an|some|his|her|their|this|that|one|another",
-    "poor": "poor|little|old|dear|young|elderly|lost|missing|dearest|own|best",
+    "poor": "poor|little|old|dear|young|elderly|lost|missing|dearest|own|best|beloved|dear old|late night|teenage|male|"
+    "female|frail|confused|injured|lone|solo|small|big|elder|younger|eldest|youngest|" + f"(?:{YEARS_OLD})",
     "gone": "is lost|is missing|are lost|are missing|got lost|has got lost|has gotten lost|has gone missing|"
     "went missing|"
     "is gone|has gone|has disappeared|disappeared|has vanished|vanished|has wandered off|wandered off|ran off|ran away|"
     "has run off|has run away|has not come back|hasn't come back|did not come back|didn't come back|never came back|"
     "did not come home|didn't come home|hasn't come home|has not come home|has been missing|was reported missing|"
     "is reported missing|has been reported missing|reported missing|reported overdue|is overdue|overdue|gone missing|"
+    "is unaccounted for|unaccounted for|has not been seen|hasn't been seen|not been seen|has not returned|"
+    "hasn't returned|failed to return|has failed to return|did not return|didn't return|never returned|"
+    "is still missing|still missing|is still out|is still out there|is nowhere to be found|is nowhere to be seen|"
+    "has been lost|has been gone|has been overdue|has not turned up|hasn't turned up|did not turn up|didn't turn up|"
+    "never turned up|has failed to turn up|has not shown up|hasn't shown up|has got herself lost|"
+    "has got himself lost|got himself lost|got herself lost|has strayed|has not reported in|hasn't reported in|"
+    "has not checked in|hasn't checked in|did not check in|didn't check in|walked out|has walked out|slipped away|"
+    "has slipped away|has wandered away|wandered away|has wandered out|wandered out|went out walking|"
+    "went out for a walk|went for a walk|is out there somewhere|"
     "lost|missing|walked off|has walked off|lost his way|lost her way|has lost his way|has lost her way|strayed",
+    "astray": "lost|missing|overdue|gone|gone missing|disappeared|vanished|wandered off|been missing|been gone|"
+    "not back|not back yet|not come back|not returned|still out there|still missing|hurt|injured|unaccounted for|"
+    "got lost|run off|walked off|strayed|in trouble",
+    "age": "[0-9]{1,3}|[0-9]{1,3} years old|" + YEARS_OLD + "|a child|a pensioner|an elderly man|an elderly woman|"
+    "an old man|an old lady|elderly|old|frail|confused|diabetic|my (?:<people>)|our (?:<people>)",
     "since": "out there|there|over there|somewhere|somewhere out there|this morning|last night|yesterday|"
     "since this morning|since last night|since yesterday|again|today|for hours|for hours now|in the woods|on a walk|"
-    "on a hike|(?:for|since) (?:a|an|one|two|three|four|five|six|many|several|some|[0-9]+) (?:hour|hours|day|days|"
+    "on a hike|and has not come back|and hasn't come back|and never came back|and did not come back|"
+    "and didn't come back|and has not returned|and hasn't returned|and is not back|and isn't back|and is missing|"
+    "earlier|earlier today|this afternoon|this evening|tonight|overnight|in the night|during the night|"
+    "a while ago|since dawn|since breakfast|since lunch|since noon|since midday|since dinner|since nightfall|"
+    "since sunrise|since dusk|since yesterday evening|since this afternoon|since the morning|"
+    "from (?:his|her|their|a|the|its) (?:walk|hike|run|ride|swim|shift|trip|round|rounds|patrol|stroll|ramble|group|"
+    "party|family|friends|class|tour|excursion|outing|hike today)|"
+    "on (?:his|her|their|a|the) (?:walk|hike|run|ride|shift|round|rounds|stroll|trail|path|way back)|"
+    "by (?:his|her|their|the) (?:wife|husband|family|friends|mother|father|parents|colleagues|neighbours|carer)|"
+    "(?:[0-9]+|an|one|two|three|four|five|six|a few|several) (?:hour|hours|days|day|minutes) ago|(?:for|since) (?:a|"
+    "an|one|two|three|four|five|six|many|several|some|[0-9]+) (?:hour|hours|day|days|"
     "minutes)(?: now| already)?",
     "lost": "lost|have lost|have just lost|just lost|are looking for|miss|can't find|cannot find|have not found|"
     "haven't found|have been looking for",
@@ -144,8 +176,17 @@ OWN_CHOICE: tuple[str, ...] = (
 
 ABOUT_A_PERSON: tuple[str, ...] = (
     "(?:<whose> )?(?:<poor> )*<person> (?:<very> )?<gone>(?: since)?(?: <since>)*",
-    "(?:we|i|they|<whose> (?:<poor> )*<person>) <lost> <whose> (?:<poor> )*<person>(?: <since>)*",
+    "(?:we|i|they|we've|i've|they've|<whose> (?:<poor> )*<person>) <lost> <whose> (?:<poor> )*<person>(?: <since>)*",
     "(?:someone|somebody) (?:<gone>)(?: <since>)*",
+    "(?:someone|somebody)'s (?:<very> )?(?:<astray>)(?: <since>)*",
+    "(?:one|a member) of (?:my|our|the|his|her|their|these) (?:<poor> )*<persons> (?:<gone>)(?: <since>)*",
+    "(?:he|she|they) (?:<gone>)(?: <since>)*",
+    "(?:he's|she's|they're|they've|he has|she has|they have|he is|she is|they are) (?:<very> )*(?:<astray>)(?: "
+    "<since>)*",
+    "(?:he's|she's|he is|she is) (?:only |just |about |around |nearly |almost |already )?<age>",
+    "(?:we're|we are|i'm|i am) (?:missing|short of|down) <whose> (?:<poor> )*<person>(?: <since>)*",
+    f"(?:<whose> )?(?:<poor> )*<person>(?: <gone>)? {REPORTED}(?: <since>)*",
+    "(?:it's|it is|that's|that is|this is) (?:<whose> )(?:<poor> )*<person>",
     "<have> (?:someone|somebody|<whose> (?:<poor> )*<person>) (?:missing|lost|overdue)(?: <since>)*",
     "(?:there is|there's) (?:someone|somebody|<whose> (?:<poor> )*<person>) (?:missing|lost|overdue)(?: <since>)*",
     "<am> (?:<very> )*(?:worried|concerned|anxious|scared) (?:about|for) <whose> (?:<poor> )*<person>",
@@ -216,15 +257,6 @@ SPEAKS: frozenset[str] = frozenset((
 ))  # fmt: skip
 """What follows `as`, `since` and `for` where they give a reason."""
 
-PERSON_NOUNS: tuple[str, ...] = tuple(
-    word for word in (*CLASSES["people"].split("|"), "climber", "walker", "runner", "jogger", "camper", "friend",
-    "colleague", "neighbour")
-    if word not in ("kids", "children", "friends", "patient", "mate", "buddy", "pal")
-)  # fmt: skip
-"""What else a person is called, in a crew that looks for `person`."""
-
-PERSON_PLURALS: tuple[str, ...] = ("people", "children", "kids", "men", "women", "friends")
-
 SUBJECTS: frozenset[str] = frozenset((
     "i", "we", "he", "she", "they", "it", "this", "that", "there", "i'm", "we're", "i've", "we've", "it's", "he's",
     "she's",
@@ -242,14 +274,6 @@ FINITE: frozenset[str] = frozenset((
     "really", "never",
 ))  # fmt: skip
 """Verbs by which a clause is told and not asked for, behind a subject that is no robot."""
-
-
-def is_lost(said: str) -> bool:
-    """Whether this says of a person what a search is for: `got lost`, `has not come home`."""
-    return said in _LOST
-
-
-_LOST = frozenset(CLASSES["gone"].split("|"))
 
 
 def told_words() -> frozenset[str]:

@@ -1,0 +1,112 @@
+"""What people call whoever is to be found, and what they say of them. Data.
+
+A word stands here only if, beside a verb that searches, it can be nobody but the one person who is looked for.
+"""
+
+from collections.abc import Iterator
+
+
+def _listed(text: str) -> tuple[str, ...]:
+    return tuple(text.split())
+
+
+FAMILY = _listed(
+    "man woman boy girl guy lady gentleman child kid son daughter brother sister mother father mum mom mummy mommy dad "
+    "daddy husband wife grandson granddaughter grandmother grandfather grandma grandpa granny grandad granddad uncle "
+    "aunt auntie cousin nephew niece fellow chap bloke nan nana gran gramps grandparent grandchild stepson "
+    "stepdaughter stepfather stepmother fiance fiancee girlfriend boyfriend spouse relative sibling twin"
+)
+CIVIL = _listed(
+    "climber walker runner jogger camper friend colleague neighbour neighbor coworker classmate schoolmate teammate "
+    "flatmate roommate skier snowboarder swimmer surfer cyclist rider horsewoman horseman rambler backpacker trekker "
+    "mountaineer orienteer wanderer stroller birdwatcher forager angler fisherman boater kayaker canoeist sailor diver "
+    "paraglider parachutist skydiver sightseer tourist holidaymaker vacationer traveller traveler visitor guest client "
+    "customer resident tenant lodger inmate pensioner senior retiree pupil student schoolboy schoolgirl schoolchild "
+    "teenager teen toddler youngster youth adolescent infant lad lass laddie lassie farmer farmhand farmworker "
+    "shepherd picker gardener worker workman labourer laborer employee apprentice trainee intern miner logger "
+    "lumberjack woodcutter builder roofer electrician plumber mechanic engineer technician surveyor geologist botanist "
+    "archaeologist scientist researcher photographer journalist postman postwoman mailman courierman driver motorist "
+    "passenger motorcyclist pedestrian passerby bystander commuter festivalgoer spectator participant competitor "
+    "contestant racer golfer player athlete hunter beekeeper vet stockman cowboy drover contractor volunteer soul "
+    "stranger individual parishioner member"
+)
+"""Whoever may be lost."""
+HELPERS = _listed(
+    "marshal steward warden ranger guide scout cub lifeguard guard officer policeman policewoman constable soldier "
+    "recruit cadet airman firefighter fireman paramedic medic nurse doctor carer caretaker teacher leader instructor "
+    "supervisor manager foreman captain pilot observer searcher rescuer operator dispatcher coordinator boss "
+    "chief priest guardian crewman crewmember adult male female minor party subject individual baby pal mate buddy "
+    "elder one"
+)
+"""Whoever may be lost, but may as well be somebody else or something else: only with a word such as `missing`."""
+DEAR: tuple[str, ...] = ("poor thing", "poor devil", "poor dear", "poor wretch", "little one", "loved one")
+"""What only a feeling makes a person."""
+LOST: tuple[str, ...] = ("missing", "lost", "overdue", "injured", "hurt", "wounded", "stranded", "trapped", "fallen")
+"""Such words."""
+COMPOUNDS: dict[str, tuple[str, ...]] = {
+    "driver": ("delivery", "truck", "lorry", "bus", "taxi", "van", "tractor", "car", "cab"),
+    "walker": ("dog", "hill", "fell", "mountain"), "runner": ("trail", "fell", "race", "marathon"),
+    "biker": ("mountain",), "climber": ("rock", "mountain", "ice"), "worker": (
+        "farm", "field", "forestry", "maintenance", "construction", "site", "warehouse", "seasonal", "care", "road",
+    ),
+    "rider": ("horse", "motorbike", "bike"), "picker": ("mushroom", "fruit", "berry", "apple", "grape"),
+    "student": ("exchange", "university"), "skier": ("cross country",), "swimmer": ("wild",),
+    "member": ("staff", "crew", "team", "family", "club", "group"), "guest": ("hotel", "wedding", "house"),
+    "resident": ("care home", "nursing home"), "watcher": ("bird",), "engineer": ("site", "field"),
+    "hand": ("farm", "ranch", "stage"), "goer": ("festival", "party"),
+}  # fmt: skip
+"""Nouns in front of one of these, which add nothing."""
+PLURALS: tuple[str, ...] = ("people", "children", "kids", "men", "women", "friends", "gentlemen", "ladies", "families")
+
+DESCRIBING: frozenset[str] = frozenset((
+    "elderly", "aged", "frail", "confused", "disoriented", "disorientated", "distressed", "vulnerable", "young",
+    "unaccounted", "middle-aged", "teenage", "adult", "male", "female", "deaf", "blind", "sick", "ill", "unwell",
+    "unconscious", "exhausted", "diabetic", "pregnant", "disabled", "senile", "demented", "autistic", "poorly",
+    "bewildered", "wandering", "unfortunate", "solo", "lone", "beloved", "wayward", "runaway", "suspected",
+))  # fmt: skip
+"""Adjectives of a person that a search cannot heed and need not."""
+
+_N = (
+    "(?:[0-9]{1,3}|(?:twenty|thirty|forty|fifty|sixty|seventy|eighty|ninety)(?: (?:one|two|three|four|five|six|seven|"
+    "eight|nine))?|two|three|four|five|six|seven|eight|nine|ten|eleven|twelve|thirteen|fourteen|fifteen|sixteen|"
+    "seventeen|eighteen|nineteen)"
+)
+_AGE = f"(?:(?:age|aged) {_N}|{_N} (?:years?|yrs?|months?) old|{_N} (?:years|yrs) of age|{_N} yo)"
+_DECADES = "(?:teens|twenties|thirties|forties|fifties|sixties|seventies|eighties|nineties)"
+_WHOSE = "(?:his|her|their)"
+_SEX = "(?:(?:a |an )?(?:(?:white|elderly|young|adult|middle aged|frail|old) )*(?:male|female|adult))"
+_AGENT = (
+    "(?:(?:the|a|an|his|her|their|our|my) )?(?:(?:hut|park|site|duty|night|local|race|school|mountain|shift|front|"
+    "head|group|tour|care|youth|security) )?(?:warden|ranger|police|staff|wife|husband|mother|father|parents|family|"
+    "friends|friend|son|daughter|brother|sister|colleagues|colleague|neighbours|neighbour|neighbor|neighbors|school|"
+    "caller|witness|witnesses|manager|guide|teacher|coach|farmer|marshal|steward|stewards|guard|dispatch|group|"
+    "carer|carers|nurse|desk|office|partner|relatives|relative|owner|keeper|leader|team|companions|club|coastguard|"
+    "lifeguard|reception|receptionist|organiser|organisers|supervisor|foreman|home|public)"
+)
+REPORTED = f"(?:reported|as reported|reported as|called in)(?: (?:missing|lost|overdue))?(?: by {_AGENT})?"
+YEARS_OLD = rf"{_N} (?:years?|yrs?) old"
+TAILS: tuple[str, ...] = (
+    "of (?:ours|mine|yours|theirs)",
+    f"in {_WHOSE} (?:early |mid |late )?{_DECADES}",
+    f"(?:[,(-] )?{_AGE}",
+    f"[,(-] {_SEX}(?: in {_WHOSE} (?:early |mid |late )?{_DECADES})?(?: (?:, )?(?:{_N}|{_AGE}))?",
+    f"[,(-] {_N} (?:, )?(?:male|female)",
+    f"(?:[,(-] )?(?:is )?{REPORTED}",
+    "[,(-] (?:mr|mrs|ms|miss|dr)(?: \\.)? [a-z]+",
+    "(?:called|named|by the name of) [a-z]+",
+)
+"""What may follow a person, one after the other, and goes with them."""
+
+
+NOUNS: frozenset[str] = frozenset(
+    (*FAMILY, *CIVIL, *HELPERS, *COMPOUNDS, *PLURALS, *(said.split()[-1] for said in DEAR))
+)
+"""The last words of all these names."""
+
+
+def names_of_people() -> Iterator[str]:
+    """What else a person is called, in a crew that looks for `person`: in the singular, as phrases."""
+    yield from (*FAMILY, *CIVIL)
+    yield from (f"{said} {noun}" for noun, many in COMPOUNDS.items() for said in many)
+    yield from DEAR
+    yield from (f"{said} {noun}" for noun in HELPERS for said in LOST)

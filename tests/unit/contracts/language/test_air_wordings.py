@@ -1,0 +1,140 @@
+"""How people speak to a crew that searches and drives, in many words for one thing, and what only looks like it."""
+
+import pytest
+from msgspec.structs import replace
+
+from crew.contracts.language.lexicon import lexicon_of
+from crew.contracts.language.reading import read_request
+from crew.contracts.site import Rules
+from crew.library import load_rules
+from tests.unit.contracts.language.corpus import ON_GROUND, judge
+
+PEOPLE = {
+    "find the hiker in the north half": """
+find the missing skier in the north half
+search the north half for our missing resident
+search the north half for the resident who has gone missing
+search the north half for the missing ranger
+search the north half for a ranger who went missing this morning
+search the north half for an elderly woman in her eighties
+search the north half for a 70-year-old man
+search the north half for my missing little girl
+look in the north half for that poor soul
+one of our guests is missing, search the north half
+A worker is unaccounted for. Search the north half.
+search the north half for the missing child, male, 8 years old
+our guest, Mrs Jones, is missing, search the north half
+Missing person reported by the hut warden, male, 62. Drone to search the north half.
+can you search the north half for my nan, she's lost
+search the north half for the unaccounted-for worker
+search the north half for the delivery driver
+search the north half for the missing party
+One walker overdue, reported by his wife. Search the north half.
+""",
+    "search the north half and send the rover to the hiker": """
+search the north half, rover to the injured once found
+search the north half for the missing child and send the rover to the casualty
+search the north half, then once he's been found drive the rover to him
+as soon as they're located, rover goes to the casualty; drone searches the north half
+drone searches the north half, rover drives to the person once she's been spotted
+search the north half and once you've found the person send the rover to him
+search the north half and, once you have him, dispatch the rover to his position
+rover to proceed to the casualty once iris has a fix on him, iris to search the north half
+search the north half and upon finding the hiker, send the rover to him
+search the north half. When you know where he is, send the rover to him.
+once someone is found, the rover is to drive to them. Drone, search the north half.
+drone to search the north half, and rover to go to the casualty upon discovery
+search the north half and the moment you find the missing person dispatch the rover to them
+search the north half and send the rover to the person when it's found them
+search the north half, then get the rover to wherever the casualty is
+search the north half and have the rover go to where they are
+search the north half, then route the ground robot to whoever it locates
+""",
+    "find the hiker and send the rover to him": "find him, send rover to him",
+}
+NOT_CARRIED_OUT = """
+search the north half and tell the hiker
+search the north half and tell my brother
+search the north half with the man
+search the north half with my colleague
+tell the man to search the north half
+ask the driver to search the north half
+have the man search the north half
+get the little one to search the north half
+the man searches the north half
+the hiker should search the north half
+search the guest area
+search the visitor site
+search the farmer's field
+search the guest house
+find the driver's van
+find the marshal
+send the rover to the technician
+send the rover to the missing ranger
+find the missing vehicle
+find the missing dog
+find the missing bag
+find my brother and send the rover to the farmer
+search the north half for the man, 62 metres high
+search the north half for the man reported by the rover
+search the north half, male, 62
+send the rover to 3, 4, male, 62
+find the resident who has gone missing from base
+find the man who is not lost
+find the injured dog
+find the lost and found
+search the north half and once I have found him send the rover to him
+once I know where he is, send the rover to him; search the north half
+search the north half and once the police have found him send the rover
+search the north half once he has been found dead
+search the north half and send the rover once found by the police
+search the north half and once he's found his phone send the rover
+search the north half and once found in the south half send the rover to him
+search the north half when you have a position
+search the north half once the drone has found a place to land
+search the north half and once you have found the rover send it to the hiker
+search the north half and if found send the rover to him
+search the north half and unless he is found send the rover to him
+search the north half, when he isn't found send the rover
+search the north half and once found send the rover to base
+search the north half and send the rover to where he is going
+search the north half and send the rover to where she was last seen
+send the rover to where he is
+send the rover to him
+send the rover to them
+send the rover to wherever you like
+search the north half, he's lost in the south half
+she's lost, or he is
+"""
+
+
+@pytest.fixture(scope="module")
+def rules() -> Rules:
+    return load_rules("air_ground")
+
+
+def plan(text: str, rules: Rules) -> tuple[str, object]:
+    judged = judge(text, rules, replace(ON_GROUND, requester_near=False))
+    found = None if judged.instance is None else (judged.instance.contract, dict(judged.instance.slots))
+    return judged.outcome, found
+
+
+def as_plain(said: dict[str, str], rules: Rules) -> list[str]:
+    """What is not read as the plain wording."""
+    lines = [(line, plain) for plain, lines in said.items() for line in lines.strip().splitlines()]
+    assert all(plan(plain, rules)[0] == "accepted" for plain in said)
+    return [line for line, plain in lines if plan(line, rules) != plan(plain, rules)]
+
+
+def test_the_person_to_be_found_is_read_by_any_name(rules: Rules) -> None:
+    assert as_plain(PEOPLE, rules) == []
+
+
+def test_what_only_looks_like_it_is_not_carried_out(rules: Rules) -> None:
+    lines = NOT_CARRIED_OUT.strip().splitlines()
+    assert [line for line in lines if judge(line, rules).outcome == "accepted"] == []
+
+
+def test_what_is_said_of_the_person_is_shown(rules: Rules) -> None:
+    reading = read_request("find the missing man, male, 62, in the north half", lexicon_of(rules))
+    assert [str(n) for n in reading.noted] == ["'male, 62'"]
