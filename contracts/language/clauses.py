@@ -10,6 +10,7 @@ from functools import cache
 from itertools import pairwise
 from typing import NamedTuple
 
+from crew.contracts.language.endings import is_over
 from crew.contracts.language.entry import stands
 from crew.contracts.language.figures import is_numeral
 from crew.contracts.language.frames import FRAMES, OPENINGS, TAGS, phrases
@@ -156,6 +157,8 @@ def _harmless(tokens: list[Token], clause: Clause, lexicon: Lexicon, kept: dict[
     if clause.whole and _fits(OWN_CHOICE, said):
         return whole
     if _brought(tokens, clause, lexicon) and _fits(OF_THEMSELVES, _in_kinds(tokens, clause, lexicon)):
+        return whole
+    if is_over(tokens, clause.first, clause.after, lexicon):
         return whole
     value = _person(lexicon)
     if value and _fits(ABOUT_A_PERSON, said) and not _names(tokens, clause, lexicon, but=MentionKind.VALUE):

@@ -6,14 +6,15 @@ counts; whoever speaks may find somebody as well, and then nobody here knows.
 
 import re
 from functools import cache
-from typing import NamedTuple
 
+from crew.contracts.language.entry import Entry
 from crew.contracts.language.inflect import Form
 from crew.contracts.language.lexicon import Lexicon, match
 from crew.contracts.language.lookahead import ARTICLES
 from crew.contracts.language.mention import ROBOT_KINDS, MentionKind
+from crew.contracts.language.symbols import Naming, Said, spelled
 from crew.contracts.language.tokens import Shape, Token
-from crew.contracts.language.words import AFFECTIVE, Role, word_set
+from crew.contracts.language.words import Role, word_set
 
 _PERSON, _SEARCHER = "PERSON", "SEARCHER"
 _LONGEST = 18
@@ -96,13 +97,6 @@ _ASKING = frozenset(("know", "me", "us", "see", "out", "report", "check"))
 _ORDERED = (Form.BASE, Form.PRESENT)
 
 
-class Said(NamedTuple):
-    """A stretch of tokens under the names by which the patterns know them."""
-
-    words: list[str]
-    spans: list[tuple[int, int]]
-
-
 def findings(tokens: list[Token], lexicon: Lexicon) -> list[Token]:
     """The tokens of a request with the plain words for when and where somebody is found."""
     if len(set(lexicon.reports.values())) != 1 or "found" not in lexicon.names:
@@ -158,14 +152,12 @@ def _matched(table: str, tokens: list[Token], at: int, lexicon: Lexicon) -> tupl
     """Past what stands here of a table, and whom it names."""
     if tokens[at].norm not in _first(table):
         return None
-    said = _said(tokens, at, lexicon)
-    for end in range(len(said.words), 1, -1):
-        if _compiled(table).fullmatch(" ".join(said.words[:end])):
-            return said.spans[end - 1][1], _whom(tokens, said, end, lexicon)
-    return None
+    said = spelled(tokens, at, lexicon, _naming(lexicon), _LONGEST)
+    end = said.longest(_compiled(table))
+    return (said.spans[end - 1][1], _whom(tokens, said, end)) if end > 1 else None
 
 
-def _whom(tokens: list[Token], said: Said, end: int, lexicon: Lexicon) -> list[Token]:
+def _whom(tokens: list[Token], said: Said, end: int) -> list[Token]:
     """Whom a clause names, as a name or a pronoun."""
     for word, (first, after) in zip(said.words[:end], said.spans[:end], strict=True):
         if word == _PERSON:
@@ -182,28 +174,18 @@ _PRONOUNS = {
 }  # fmt: skip
 
 
-def _said(tokens: list[Token], at: int, lexicon: Lexicon) -> Said:
-    """The words that stand here, with names for whoever is looked for and for who searches."""
-    said = Said([], [])
+def _naming(lexicon: Lexicon) -> Naming:
+    """Names for whoever is looked for and for who searches."""
     known = set(lexicon.reports.values())
-    while at < len(tokens) and len(said.words) < _LONGEST and tokens[at].shape is Shape.WORD:
-        begin = at
-        while begin < len(tokens) and (tokens[begin].norm in ARTICLES or tokens[begin].norm in AFFECTIVE):
-            begin += 1
-        name = match(lexicon.names, tokens, begin) if begin < len(tokens) else None
-        symbol = ""
-        if name is not None and name.kind is MentionKind.VALUE and set(name.values) <= known and not name.plural:
-            symbol = _PERSON
-        elif name is not None and name.kind in ROBOT_KINDS and not name.plural and _searches(name.values, lexicon):
-            symbol = _SEARCHER
-        after = at + 1 if name is None or not symbol else begin + len(name.words)
-        said.words.append(symbol or tokens[at].norm)
-        said.spans.append((at, after))
-        if tokens[after - 1].possessive:
-            said.words.append("'s")
-            said.spans.append((at, after))
-        at = after
-    return said
+
+    def symbol(name: Entry) -> str:
+        if name.plural:
+            return ""
+        if name.kind is MentionKind.VALUE and set(name.values) <= known:
+            return _PERSON
+        return _SEARCHER if name.kind in ROBOT_KINDS and _searches(name.values, lexicon) else ""
+
+    return symbol
 
 
 def _searches(robots: tuple[object, ...], lexicon: Lexicon) -> bool:

@@ -83,7 +83,7 @@ TAGS: tuple[str, ...] = (
     "(is that|if that's|if that is|if it is|if it's) (ok|okay|all right|alright|fine|possible|not too much trouble)",
     "(that would be|that'd be|it would be) (great|nice|lovely|perfect|wonderful|kind|all)",
     "(that's|that is) (all|it|everything)",
-    "there's a (dear|love|good boy|good girl|good lad|good dog)",
+    "there's a (dear|love|darling|good boy|good girl|good lad|good dog|good fellow|good chap|good man|good one)",
     "(thanks so much|thank you so much|much obliged|much appreciated|thanking you|thank you kindly)",
     "(over|out|over and out|how copy|do you copy|acknowledge|acknowledged|roger|wilco|stand by|standing by)",
     "and stand by",

@@ -35,13 +35,6 @@ def implied_verbs(pieces: list[Piece], text: str, tokens: list[Token], lexicon: 
         noun.role, noun.kind, noun.name = Role.MENTION, MentionKind.ACTION, _FIND
         noun.means = tuple(dict.fromkeys(_means((_FIND,), lexicon)))
         return []
-    if (low := _down(pieces)) is not None:
-        words = ("come", "down")
-        low.role, low.kind, low.name = Role.MENTION, MentionKind.ACTION, " ".join(words)
-        low.means = tuple(ref for e in lexicon.names.get(words[0], ()) if e.words == words for ref in e.means)
-        if not low.means:
-            low.become(Role.UNREAD)
-        return []
     for at in range(len(pieces)):
         if _insert(pieces, at, _words(pieces, at), lexicon):
             return doubtful
@@ -164,12 +157,6 @@ def _verbs_for(named: list[Piece]) -> tuple[str, ...]:
     if MentionKind.OBJECT in kinds and goals:
         return _MOVED[False]
     return (_FIND,) if kinds == {MentionKind.VALUE, MentionKind.ZONE} else ()
-
-
-def _down(pieces: list[Piece]) -> Piece | None:
-    """The last word of `drone down`."""
-    said = [p for p in pieces if p.role not in (Role.FILLER, Role.PUNCTUATION, Role.DETERMINER)]
-    return said[1] if len(said) == 2 and said[0].is_robot and said[1].norm == "down" else None
 
 
 def _place_asked_for(pieces: list[Piece]) -> Piece | None:

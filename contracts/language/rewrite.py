@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 
+from crew.contracts.language.endings import endings
 from crew.contracts.language.entry import Words, stands_all
 from crew.contracts.language.figures import is_numeral
 from crew.contracts.language.findings import findings
@@ -23,6 +24,7 @@ from crew.contracts.language.rewrites import (
     wordings_before_robots,
     wordings_before_zones,
 )
+from crew.contracts.language.staying import staying
 from crew.contracts.language.tokens import Shape, Token
 from crew.contracts.language.told import told
 
@@ -38,6 +40,7 @@ def rewritten(tokens: list[Token], lexicon: Lexicon) -> list[Token]:
     at = 0
     tokens = findings(restated(tokens, lexicon), lexicon)
     tokens = told([t for k, t in enumerate(tokens) if not _hesitation(tokens, k, lexicon)], lexicon)
+    tokens = staying(endings(tokens, lexicon), lexicon)
     while at < len(tokens):
         words, plain = (
             _arrow(tokens, at)

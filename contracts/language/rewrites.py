@@ -77,10 +77,6 @@ REWRITES: tuple[tuple[str, str], ...] = (
         "anyone",
     ),
     ("(whoever|whomever) is (out there|in there|over there)", "whoever is there"),
-    (
-        "(stop|end|terminate|call off|break off|discontinue) (the|this) (mission|operation|search|task|job)",
-        "abort the mission",
-    ),
     ("(move|get|bring|take|drive) (yourself|itself|himself|yourselves) to", "go to"),
     ("to (that|this|the same) (position|location|spot|place|point)", "there"),
     ("(follow|follow on|come along|come up|move up|close up) to", "go to"),
@@ -102,7 +98,6 @@ REWRITES: tuple[tuple[str, str], ...] = (
     ("(mount|stage|launch|set up|run) (a|the|another) search", "do a search"),
     ("seek (the|a|our|my|that|this)", "find the"),
     ("(reach|slip) me", "hand me"),
-    ("call off everything", "abort everything"),
     ("fly (the|your|a) (search|sweep|survey)", "do a search"),
 )
 """What is said, and what it is read as."""

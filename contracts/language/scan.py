@@ -1,7 +1,7 @@
 """From tokens to pieces: figures first, then the longest known phrase, with the few idioms that need a look ahead."""
 
 from crew.contracts.language.asides import Asides
-from crew.contracts.language.entry import Entry, stands, stands_all
+from crew.contracts.language.entry import Entry, stands_all
 from crew.contracts.language.figures import is_numeral
 from crew.contracts.language.frames import BEFORE_A_MARK
 from crew.contracts.language.inflect import Form
@@ -145,7 +145,7 @@ class Scanner(Asides):
             return None
         end = self._past_name(at + 1)
         tails = LEFT_ALONE if end < len(self.tokens) else ()
-        tail = next((t for t in tails if stands(self.tokens, end, t)), None)
+        tail = next((t for t in tails if stands_all(self.tokens, end, t)), None)
         closed = tail is not None and self._clause_ends(end + len(tail))
         if tail is None or not closed:
             return None

@@ -16,6 +16,7 @@ from crew.contracts.language.tokens import Shape, Token
 from crew.contracts.language.words import AFFECTIVE
 
 _LAUNCH, _LAND, _TELL = "launch", "land", "tell"
+_DOWN = (("down",), ("back", "down"), ("to", "ground"), ("to", "the", "ground"))
 _ENDS_UP = frozenset(("and", "then", "to", "so", "please", "now"))
 _OPENS = frozenset(("and", "then", "please", "so", "or", "now"))
 
@@ -28,7 +29,7 @@ def told(tokens: list[Token], lexicon: Lexicon) -> list[Token]:
     out: list[Token] = []
     at = 0
     while at < len(tokens):
-        rules = (rule(tokens, at, lexicon) for rule in (_raised, _lowered, _tasked, _assigned, _done, _put))
+        rules = (rule(tokens, at, lexicon) for rule in (_raised, _lowered, _bare, _tasked, _assigned, _done, _put))
         words, plain = next((found for found in rules if found is not None), (1, tokens[at : at + 1]))
         out.extend(plain)
         at += words
@@ -67,6 +68,25 @@ def _lowered(tokens: list[Token], at: int, lexicon: Lexicon) -> Rule | None:
     if down is None or not _ended(tokens, end + len(down)):
         return None
     return end + len(down) - at, [_said(tokens[at], _LAND), *tokens[at + 1 : end]]
+
+
+def _bare(tokens: list[Token], at: int, lexicon: Lexicon) -> Rule | None:
+    """`drone up, ...`, `drone down`, `ground the drone`: to launch it, to land it."""
+    if not _begins(tokens, at):
+        return None
+    end = _robot(tokens, at + 1, lexicon, _LAND) if tokens[at].norm == "ground" else None
+    if end is not None and _ended(tokens, end):
+        return 1, [_said(tokens[at], _LAND)]
+    for verb, ways in ((_LAUNCH, UP_IN), (_LAND, _DOWN)):
+        end = _robot(tokens, at, lexicon, verb)
+        way = next((w for w in ways if end is not None and stands_all(tokens, end, w)), None)
+        if end is None or way is None:
+            continue
+        after = end + len(way)
+        climbs = after < len(tokens) and tokens[after].norm in ("to", "at") and _numeral(tokens, after + 1)
+        if climbs or (_ended(tokens, after) and not stands_all(tokens, after, ("?",))):
+            return after - at, [_said(tokens[after - 1], verb), *tokens[at:end]]
+    return None
 
 
 def _tasked(tokens: list[Token], at: int, lexicon: Lexicon) -> Rule | None:

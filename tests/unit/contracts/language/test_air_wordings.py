@@ -52,6 +52,60 @@ search the north half, then route the ground robot to whoever it locates
 """,
     "find the hiker and send the rover to him": "find him, send rover to him",
 }
+STAYING = {
+    "search the north half": """
+search the north half and keep the rover parked for now
+search the north half, rover stays on standby
+search the north half, rover to remain where it is
+search the north half with the rover on standby
+search the north half; the rover isn't needed
+have the drone search the north half while the rover stays where it is
+hold the rover and search the north half with the drone
+drone up, search the north half, rover holds at base
+search the north half and leave the rover out of it
+""",
+    "send the rover to base": """
+keep the drone on the ground and send the rover to base
+send the rover to base, drone to remain grounded
+""",
+    "search the north half and send the rover to the hiker": """
+rover stands by, drone searches the north half, once found the rover goes to the hiker
+search the north half, rover on standby; once he is found the rover drives to him
+""",
+    "land the drone and stop the rover": """
+land the drone and hold the rover where it is
+drone to land, rover to stay where it is
+drone down, rover hold position
+bring the drone down and have the rover stop right there
+Abort. Put the drone on the ground and hold the rover where it is.
+""",
+    "stop the rover": """
+rover to hold position
+rover, stay where you are
+""",
+}
+ENDING = {
+    "abort everything": """
+everything off
+stand everything down
+stand down
+calling it all off
+we're calling it all off
+would you mind calling it all off and landing the drone, please?
+we're done here, bring everything in
+please finish all now, the drone lands and the rover stops
+call the whole thing off
+all units stand down
+both of you stop
+stop what you're doing
+cease all operations immediately
+mission over, abort
+emergency stop
+that's all for today, stop everything
+let's stop here
+""",
+    "send the rover to base": "the rover must drive to base now, we are finish for today",
+}
 NOT_CARRIED_OUT = """
 search the north half and tell the hiker
 search the north half and tell my brother
@@ -105,6 +159,47 @@ send the rover to them
 send the rover to wherever you like
 search the north half, he's lost in the south half
 she's lost, or he is
+keep the rover where it is until I say so and search the north half
+search the north half, keep the rover 5 m away
+keep the rover moving and search the north half
+search the north half, rover stays near the hiker
+search the north half, rover stays in the south half
+search the north half, keep the rover out of the south half
+search the north half, the rover is not needed if the drone finds him
+search the north half, the rover isn't needed tomorrow
+search the north half, rover stays unless needed
+search the north half, drone stays on the ground
+search the north half, keep the rover where it is or send it to base
+keep the rover where it is
+drone to hold position
+the rover stays at base
+is the rover parked
+stop everything but the rover
+stop everything except the drone
+stop everything at noon
+stop everything before he gets hurt
+don't stop everything
+do not call it off
+don't finish all now, the drone lands and the rover stops
+they called it off
+why did you call it off
+shall we call it off?
+is everything off?
+everything off?
+finish the search
+finish the job
+put everything down
+the mission is over
+the mission is over, search the north half
+we are finished with the north half, search the south half
+search the north half full stop
+send the rover to base, it is done already
+drone down?
+is the drone down
+drone down south
+drone up north
+drone up
+ground floor
 """
 
 
@@ -128,6 +223,14 @@ def as_plain(said: dict[str, str], rules: Rules) -> list[str]:
 
 def test_the_person_to_be_found_is_read_by_any_name(rules: Rules) -> None:
     assert as_plain(PEOPLE, rules) == []
+
+
+def test_a_robot_that_stays_is_left_out_or_stopped(rules: Rules) -> None:
+    assert as_plain(STAYING, rules) == []
+
+
+def test_everything_ends_by_any_word(rules: Rules) -> None:
+    assert as_plain(ENDING, rules) == []
 
 
 def test_what_only_looks_like_it_is_not_carried_out(rules: Rules) -> None:
