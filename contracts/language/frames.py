@@ -35,6 +35,7 @@ FRAMES: tuple[str, ...] = (
     "(do|would) you mind",
     "(|i |we |you )(want|wanna) to",
     "pretty please",
+    "(let's try|let us try)",
     "be able to",
     "(you know what|i tell you what|tell you what|the thing is|long story short|to be honest|if i may)",
     "(i'm |i am |we're |we are )(going to|definitely going to|just going to) (need|want)",

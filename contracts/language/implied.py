@@ -173,7 +173,12 @@ def _words(pieces: list[Piece], at: int) -> tuple[str, ...]:
     if piece.is_robot and place is not None and place.kind in _PLACES and _alone(pieces, at):
         return _MOVED[True] if pieces[at + 1] is place else ()  # "tb3 home"
     if owner is None and piece.role is Role.TO and place is not None and place.kind in _PLACES and _alone(pieces, at):
-        return _MOVED[True] if any(p.is_robot for p in pieces[at:]) else ()  # "to the charger, dog"
+        taken = next((p for p in pieces[at:] if p.is_entity and p is not place), None)
+        link = before(pieces, pieces.index(taken)) if taken is not None else None
+        if taken is not None and taken.kind is MentionKind.OBJECT and link is not None and link.role is Role.WITH:
+            link.become(Role.FILLER)
+            return _MOVED[False]  # "off to room_b with the bottle"
+        return _MOVED[True] if taken is not None and taken.is_robot else ()  # "to the charger, dog"
     if owner is not None and owner.role is Role.PUNCTUATION and owner.norm in _SURE_MARKS:
         called = before(pieces, at, SOFT | {Role.PUNCTUATION})
         owner = called if called is not None and called.is_robot else owner  # "rover, back to base"
@@ -191,16 +196,17 @@ def _alone(pieces: list[Piece], at: int) -> bool:
 
     The robot that does it may follow: `cube to room_b, by dog`.
     """
-    named = [p for k, p in enumerate(pieces) if p.is_entity and not (k > at and _does_it(pieces, k))]
+    named = [p for k, p in enumerate(pieces) if p.is_entity and not _does_it(pieces, at, k)]
     odd = (Role.UNREAD, Role.WORD, Role.NOT, Role.NO, Role.EXCEPT, Role.AVOID, Role.AND, Role.BE, Role.PRONOUN)
     return len(named) == 2 and not any(p.role in odd for p in pieces)
 
 
-def _does_it(pieces: list[Piece], at: int) -> bool:
-    """`by the dog`, `on the dog`: who takes a thing where it shall go."""
-    link = before(pieces, at, SOFT - {Role.FILLER})
-    said = link is not None and (link.role is Role.WITH or link.norm in ("on", "onto"))
-    return said and pieces[at].is_robot
+def _does_it(pieces: list[Piece], link: int, at: int) -> bool:
+    """`cube to room_b by the dog`, `on the dog`: who takes a thing where it shall go."""
+    owner = before(pieces, link)
+    taken = owner is not None and owner.kind is MentionKind.OBJECT and at > link and pieces[at].is_robot
+    by = before(pieces, at, SOFT - {Role.FILLER}) if taken else None
+    return by is not None and (by.role is Role.WITH or by.norm in ("on", "onto"))
 
 
 def _first_of_name(pieces: list[Piece], at: int) -> int:

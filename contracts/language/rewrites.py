@@ -33,6 +33,10 @@ REWRITES: tuple[tuple[str, str], ...] = (
     ("(hello|hi|hey) there", "hello"),
     ("(i'd|i would|we'd|we would) (love|really like|very much like)", "i would like"),
     ("(grab|get|fetch|bring|hand|pass|give) me over", "bring me"),
+    ("(i'd like|i would like|i want|we'd like|we would like|we want) to see (the|our|your|my)", "i want the"),
+    ("(we'd|you'd|it'd) better", "please"),
+    ("(you|we|they) (might|may) (want|like|wish) to", "please"),
+    ("(off|away|onward|onwards) to", "to"),
     ("grab me", "fetch me"),
     ("(off you go|off we go|off with you|go on) to", "go to"),
     ("(have|take) (a|another|one more) (quick|good|close|careful|thorough|proper) look", "have a look"),
@@ -54,6 +58,12 @@ REWRITES: tuple[tuple[str, str], ...] = (
     ("(in need of|short of|crying out for|asking for|calling for)", "needs"),
     ("(is|are) (in need of|short of|asking for|calling for|requesting)", "needs"),
     ("(asks for|calls for|requires|requests|could do with|could use)", "needs"),
+    (
+        "(has|have) (asked for|called for|requested|ordered|run out of|phoned for|radioed for|put in for|sent for)",
+        "needs",
+    ),
+    ("(is|are) (waiting for|waiting on|expecting|out of)", "needs"),
+    ("(has been|have been) (asking for|waiting for|calling for)", "needs"),
     ("(make your way|make its way|find your way|get yourself|take yourself|betake yourself) to", "go to"),
     ("(along|over|out|across|off|round|around|straight|directly|right|all the way|on over) to", "to"),
     ("(along|out|across|straight|directly|right|all the way) (into|towards)", "to"),
@@ -107,6 +117,7 @@ BEFORE_A_PLACE: tuple[tuple[str, str], ...] = (
     ("back", "to"),
     ("(goes|belongs|should go|must go|has to go|needs to go) (on|onto)", "put on"),
     ("(set off|set out|start out|start off|leave|depart|make) for", "go to"),
+    ("(end up|wind up|finish up|arrive|be dropped off|be delivered|turn up) (in|at|on)", "go to"),
 )
 """The same, only in front of a place's name."""
 
@@ -145,7 +156,10 @@ SENDING: frozenset[str] = frozenset((
 BEFORE_AN_OBJECT: tuple[tuple[str, str], ...] = (
     ("(might|may|can|could) (i|we) (have|get|please have|please get|just have|just get|possibly have)", "could i have"),
     ("(retrieve|collect|obtain|procure|go and get|go and fetch|go and collect|run and get|go grab)", "fetch"),
-    ("(cart|shuttle|ferry|courier|lug|tote|schlep)", "carry"),
+    (
+        "(cart|shuttle|ferry|courier|lug|tote|schlep|ship|relay|rush|whisk|hustle|speed|forward|wheel|trot|walk|run)",
+        "carry",
+    ),
     ("(rest|stick|plonk|plop|deposit)", "put"),
     ("(clutch|grip|clasp)", "hold"),
     ("i wonder if (i|we) (might|may|can|could) (have|get)", "could i have"),
@@ -154,6 +168,12 @@ BEFORE_AN_OBJECT: tuple[tuple[str, str], ...] = (
 """The same, only in front of an object's name."""
 
 BEFORE_A_ZONE: tuple[tuple[str, str], ...] = (
+    ("(|i need |we need |i want |we want |get |put |give me |keep )eyes (on|over|above)", "search"),
+    (
+        "(|have a look at |take a look at |look at |see |check |find out )(what's|what is|who's|who is) (in|over)",
+        "search",
+    ),
+    ("(hunt|forage|scrounge|poke) (around|about|through|over|round)( in|)", "search"),
     (
         "(probe|examine|trawl|recce|look through|hunt through|search through|sweep over|quarter|rake|scrutinise|"
         "scrutinize)",
