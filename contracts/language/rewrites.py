@@ -62,8 +62,6 @@ REWRITES: tuple[tuple[str, str], ...] = (
         "(has|have) (asked for|called for|requested|ordered|run out of|phoned for|radioed for|put in for|sent for)",
         "needs",
     ),
-    ("(is|are) (waiting for|waiting on|expecting|out of)", "needs"),
-    ("(has been|have been) (asking for|waiting for|calling for)", "needs"),
     ("(make your way|make its way|find your way|get yourself|take yourself|betake yourself) to", "go to"),
     ("(along|over|out|across|off|round|around|straight|directly|right|all the way|on over) to", "to"),
     ("(along|out|across|straight|directly|right|all the way) (into|towards)", "to"),
@@ -154,6 +152,8 @@ SENDING: frozenset[str] = frozenset((
 """The same, where the goal opens with `to` or `here`: `recall the rover at base` may be no order at all."""
 
 BEFORE_AN_OBJECT: tuple[tuple[str, str], ...] = (
+    ("(is|are) (waiting for|waiting on|expecting|out of)", "needs"),
+    ("(has been|have been) (asking for|waiting for|calling for)", "needs"),
     ("(might|may|can|could) (i|we) (have|get|please have|please get|just have|just get|possibly have)", "could i have"),
     ("(retrieve|collect|obtain|procure|go and get|go and fetch|go and collect|run and get|go grab)", "fetch"),
     (
