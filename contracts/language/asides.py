@@ -83,10 +83,11 @@ class Asides(Lookahead):
         return entry is not None and entry.role is Role.AT
 
     def _spoken_like(self, at: int) -> Piece | None:
-        """`could you like put it down`."""
-        loose = self.tokens[at].norm == "like" and self._action(at + 1) is not None
-        asked = bool(self.pieces) and self.pieces[-1].role in (Role.FILLER, Role.MODAL)
-        return Piece(at, at + 1, Role.FILLER) if loose and asked else None
+        """`could you like put it down`, `go to like the first room`."""
+        said = self.tokens[at].norm == "like" and bool(self.pieces)
+        asked = said and self.pieces[-1].role in (Role.FILLER, Role.MODAL) and self._action(at + 1) is not None
+        placed = said and self.pieces[-1].role in (Role.TO, Role.AT) and self._past_name(at + 1) > at + 1
+        return Piece(at, at + 1, Role.FILLER) if asked or placed else None
 
     def _hold_on_to(self, at: int) -> Piece | None:
         """`hold on to the bottle` corrects nothing."""

@@ -9,6 +9,7 @@ from crew.contracts.language.lexicon import Lexicon, match
 from crew.contracts.language.lookahead import ARTICLES
 from crew.contracts.language.mention import ROBOT_KINDS, MentionKind
 from crew.contracts.language.rewrites import HESITATIONS
+from crew.contracts.language.stories import SPEAKS
 from crew.contracts.language.tokens import Shape, Token
 from crew.contracts.language.words import AFFECTIVE, IN_NEED
 
@@ -29,7 +30,8 @@ _TAILS: tuple[Words, ...] = tuple(
         "i ought to say", "as i should say", "as i'm supposed to say", "as i am supposed to say", "as you call it",
         "as they call it", "as we call it", "as it's called", "as it is called", "if you like", "if you prefer",
         "if you will", "so to speak", "of course", "to be clear", "i suppose i should say", "is what i mean",
-        "is what i meant",
+        "is what i meant", "same thing", "i should call it", "i should have said", "it's the same",
+        "whatever it's called",
     )
 )  # fmt: skip
 _MARKS = frozenset((",", "-", "\u2026", "(", ")", ";", "."))
@@ -60,6 +62,8 @@ def restated(tokens: list[Token], lexicon: Lexicon) -> list[Token]:
 def _again(tokens: list[Token], at: int, lexicon: Lexicon) -> tuple[list[Token], int] | None:
     """The name that follows in other words, and where it is over."""
     name = match(lexicon.names, tokens, at)
+    if (twice := _called_twice(tokens, at, name)) is not None:
+        return [], twice
     begin = at + (1 if name is None or name.kind is MentionKind.ACTION else len(name.words))
     if tokens[begin - 1].possessive:
         return None
@@ -75,8 +79,18 @@ def _again(tokens: list[Token], at: int, lexicon: Lexicon) -> tuple[list[Token],
     after = end
     if tail:
         after += (tokens[end].norm in _MARKS) + len(tail)
-    after += after < len(tokens) and tokens[after].norm in (",", "-", ")") and begin < second
-    return tokens[named:end], after
+    closed = after < len(tokens) and tokens[after].norm in (",", "-", ")") and begin < second
+    told = closed and after + 1 < len(tokens) and tokens[after + 1].norm in SPEAKS  # "..., I'm over here"
+    return tokens[named:end], after + (closed and not told)
+
+
+def _called_twice(tokens: list[Token], at: int, name: Entry | None) -> int | None:
+    """Where the second `rover` of `rover, rover, go to base` begins."""
+    if name is None or name.kind not in ROBOT_KINDS or not (at == 0 or tokens[at - 1].shape is Shape.MARK):
+        return None
+    again = at + len(name.words)
+    again += again < len(tokens) and tokens[again].norm in (",", "-", "\u2026")
+    return again if stands_all(tokens, again, name.words) else None
 
 
 def _past_links(tokens: list[Token], at: int) -> tuple[int, set[Words]]:

@@ -25,6 +25,8 @@ REWRITES: tuple[tuple[str, str], ...] = (
     ("(see|check|look|find out|tell me) (if|whether) you (can|could) (find|see|spot|locate)", "find"),
     ("see if you (can|could)", "please"),
     ("(can|could|would|will) (u|ya)", "can you"),
+    ("ever so", "so"),
+    ("(plz|pleez|plese)", "please"),
     ("(why don't|why do not|why not) (we|you)", "please"),
     ("(is|is it|would it be) possible (for|that) (you|we|the robots) (to|can|could)", "please"),
     ("is possible (to|that you|you to|you)", "please"),

@@ -30,7 +30,8 @@ _BY = (
 _LOOSE = (
     "right|just|still|already|now|currently|over|back|up|down|out|all|away|far|far away|close|close by|near|nearby|"
     "alone|and|comfortably|quite|very|only|way|through|waiting|sitting|standing|seated|lying|resting|working|stuck|stood|sat|"
-    "sitting down|standing up|lying down|reading|too far|too far away|a bit|a little"
+    "sitting down|standing up|lying down|reading|too far|too far away|a bit|a little|rather|so|really|thirsty|parched|"
+    "hungry|tired|cold|stuck|busy|exhausted|comfortable|cosy|not well|unwell|ill|poorly"
 )
 _HERE = (
     "here|over here|right here|there|over there|upstairs|downstairs|next door|elsewhere|outside|in bed|at home|"
@@ -41,7 +42,8 @@ _HERE = (
 _AT = (
     f"(?:{_BY} (?:you|(?:(?:the|a|your|that|this|our) (?:[a-z]+ )?)?@robot|(?:the |a )?@place|{_THING}|"
     "(?:his|its) side)"
-    f"|{_IN}|(?:at|on|in|by) {_SIDE} of (?:the |a |this |that )?(?:@robot|@place|{_NOUN}(?: {_NOUN})?)"
+    f"|{_IN}|(?:at|on|in|by) {_SIDE}(?: of (?:the |a |this |that )?(?:@robot|@place|{_NOUN}(?: {_NOUN})?))?"
+    f"|across (?:from )?{_THING}(?: from (?:you|(?:the )?@robot|(?:the )?@place|{_THING}))?"
     f"|at (?:the |a )?(?:@place|home|work|school|hospital))"
 )
 _AM = (
@@ -49,10 +51,15 @@ _AM = (
     "(?:i|we)'ve moved)"
 )
 _TAIL = (
-    "(?: (?:here|now|today|at the moment|right now|already|waiting|and waiting|ready|for it|for now|though|you see|"
+    "(?: (?:here|over here|right here|over there|there|only|now|today|at the moment|right now|already|waiting|"
+    "and waiting|ready|for it|for now|though|you see|"
     "too))*"
 )
 _HAND = "(?:hand|hands|palm|palms|arm|arms)"
+_HELD = (
+    f"with (?:my|a|one|both) (?:free |open |right |left )?{_HAND}"
+    "(?: (?:out|open|ready|up|free|held out|stretched out|outstretched))*"
+)
 
 _CANNOT = (
     "(?:i|we)(?: really| just| simply| quite| still)* (?:can't|cannot|can not|can hardly|can barely|couldn't|could not|"
@@ -93,8 +100,8 @@ OF_THEMSELVES: tuple[str, ...] = (
     "(?: (?:so well|very well|well|easily|myself|right now|at the moment|any more|anymore|just now|now|today|"
     "quickly))*"
     f"(?: (?:from|out of|off|with|on|in|because of) {_THING}| {_AT})*{_TAIL}",
-    f"{_AM}(?: (?:{_LOOSE}))*(?: (?:{_HERE}))?(?: {_AT})+{_TAIL}",
-    f"{_AM}(?: (?:{_LOOSE}))*(?: (?:{_HERE})){_TAIL}",
+    f"{_AM}(?: (?:{_LOOSE}))*(?: (?:{_HERE}))?(?: {_AT})+{_TAIL}(?: {_HELD})?",
+    f"{_AM}(?: (?:{_LOOSE}))*(?: (?:{_HERE})){_TAIL}(?: {_HELD})?",
     f"(?:i've|i have|i have got|i've got|i got|i hold|i'm holding|i am holding|i'll hold|holding|with) (?:out )?"
     f"(?:my|a|an|one) (?:free |open |other |right |left )?{_HAND}"
     f"(?: (?:out|open|ready|free|up|held out|stretched out|outstretched|here))*(?: {_AT})?{_TAIL}",

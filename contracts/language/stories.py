@@ -145,6 +145,12 @@ HARMLESS: tuple[str, ...] = (
     "(?: for)?(?: today| now| one day| already)?",
     "(?:it's|he's|she's) (?:done|worked|earned|had) (?:<very> )?(?:enough|hard|a rest|a break|its rest)"
     "(?: for)?(?: today| now| one day| already)?",
+    "(?:it's|it is|that's|that is|we're|we are|i'm|i am)"
+    "(?: all| quite| about| just)* (?:done|finished|wrapping|wrapping up|packing up|through|all right now)"
+    "(?: (?:here|now|today|for today|for tonight|for now|for the day|lads|folks|everyone|everybody|with it|then|too))*",
+    "(?:it's|it is) (?:one|two|three|four|five|six|late|early|midnight|the middle) (?:in the|at|of the) "
+    "(?:morning|night|evening)",
+    "(?:let's|let me|let us) see|let me think|i've seen (?:quite )?enough|that's (?:enough|all|it)(?: for today| now)?",
     "(?:you|he|she|it|they) (?:must|might|will) be (?:<very> )*<feeling>(?: by now| now| already| too| today)?",
     "(?:it|he|she|you) (?:has|have|'s|'ve) (?:earned|deserved) (?:it|that|this|one|a rest|a break)",
     "(?:it's|he's|she's|you've) (?:earned|deserved) (?:it|that|this|one|a rest|a break)",
@@ -211,7 +217,11 @@ CALLS: tuple[str, ...] = (
 """Who speaks, in a clause of its own."""
 OUT_OF_REACH: tuple[str, ...] = ("<i> <cannot> (?:quite )?(?:reach|get to|get at|lift|carry|hold|fetch|find)",)
 """What the person cannot do with the thing that is then asked for."""
-CALLED: tuple[str, ...] = ("<caller> (?:to|for|calling)", "this is <caller> (?:to|for|calling)")
+CALLED: tuple[str, ...] = (
+    "<caller> (?:to|for|calling)",
+    "this is <caller> (?:to|for|calling)",
+    "assign|assigning|task|tasking|detail|detailing|calling|attention|attn|come in",
+)
 """Who speaks, in front of the robot that is called."""
 
 _LABEL = "task|order|job|incident|situation|mission|request|assignment|tasking|instruction|instructions|message|"

@@ -108,7 +108,10 @@ FUNCTION_WORDS: dict[Role, tuple[str, ...]] = {
     Role.QUANTIFIER: ("all", "both", "every", "each", "whole", "entire", "complete", "full"),
     Role.TO: ("to", "into", "onto", "toward", "towards", "over to", "back to", "up to", "to where"),
     Role.AT: ("at", "in", "on", "inside", "within", "in the direction", "somewhere in", "somewhere inside"),
-    Role.OVER: ("over", "across", "throughout", "through", "around", "all over", "all around", "all across"),
+    Role.OVER: (
+        "over", "across", "throughout", "through", "around", "round", "all round", "all over", "all around",
+        "all across",
+    ),
     Role.NEAR: ("near", "beside", "next to", "close to", "near to"),
     Role.FROM: ("from", "out of"),
     Role.WITH: ("with", "using", "by", "via", "with the help of"),
