@@ -8,12 +8,14 @@ from crew.contracts.language.lexicon import match
 from crew.contracts.language.lookahead import ARTICLES, Lookahead
 from crew.contracts.language.mention import ROBOT_KINDS, MentionKind
 from crew.contracts.language.piece import Piece, before, of_entry
+from crew.contracts.language.tokens import Shape
 from crew.contracts.language.words import AFFECTIVE, QUALITIES, Role
 
 _TAG_LINKS = ("and",)
 _SELVES = ("i", "we")
 _OTHERS = ("it", "him", "her", "them")
 _ALLOWED = ("may", "can", "could", "might")
+_LONGEST_NAME = 4
 _NEEDED = frozenset(("needed", "wanted", "required", "requested", "expected", "awaited"))
 _ASKING = frozenset(("is", "are", "was", "were", "who", "what", "where", "why", "when", "how", "which"))
 _NEEDS = frozenset(("need", "needs", "want", "wants", "would"))
@@ -174,6 +176,8 @@ class Asides(Lookahead):
 
     def _recipient(self, at: int) -> Piece | None:
         """`the patient in room_b needs ...`: who is there is whom it is for."""
+        if (wanting := self._whoever_needs(at)) is not None:
+            return wanting
         nobody = self._clause_begins(at) and not any(p.is_entity for p in self.pieces)
         if nobody and self.tokens[at].norm in _SOMEBODY and norm_at(self.tokens, at + 1) in ("need", "needs"):
             return Piece(at, at + 1, Role.FILLER)  # "they need the bottle in room_a"
@@ -190,6 +194,25 @@ class Asides(Lookahead):
         place = self._past_name(at + 2)
         needs = self._action(place) if place > at + 2 else None
         return Piece(at, at + 1, Role.FILLER) if needs is not None and needs.words[0] in _NEEDS else None
+
+    def _whoever_needs(self, at: int) -> Piece | None:
+        """`front desk wants the bottle in room_a`: whoever that is, something is wanted at a place."""
+        if self._named_yet() or not self._clause_begins(at) or self.tokens[-1].norm == "?":
+            return None
+        end = at
+        while end < min(at + _LONGEST_NAME, len(self.tokens)) and self._says_nothing(end):
+            end += 1
+        known = [self._name(k) for k in range(end + 1, len(self.tokens))]
+        placed = any(e is not None and e.kind is MentionKind.LOCATION for e in known)
+        things = any(e is not None and e.kind in (*ROBOT_KINDS, MentionKind.OBJECT) for e in known)
+        wants = norm_at(self.tokens, end) in ("needs", "wants") and end > at
+        return Piece(at, end, Role.FILLER) if wants and placed and things else None
+
+    def _says_nothing(self, at: int) -> bool:
+        """Whether a token is an article or a word that nobody knows."""
+        entry = self.lexicon.longest(self.tokens, at)
+        unknown = entry is None and self.tokens[at].shape is Shape.WORD and self.tokens[at].norm not in _ASKING
+        return unknown or (entry is not None and entry.role is Role.DETERMINER)
 
     def _named_yet(self) -> bool:
         return any(p.is_entity or p.is_action for p in self.pieces)

@@ -26,6 +26,12 @@ REWRITES: tuple[tuple[str, str], ...] = (
     ("see if you (can|could)", "please"),
     ("(can|could|would|will) (u|ya)", "can you"),
     ("ever so", "so"),
+    ("(flight|flying|search|cruise|cruising|operating|working) (altitude|height|level)", "altitude"),
+    (
+        "what (i'd like|i would like|we'd like|we would like|we need|we want|i'd love|i'm after|we're after|i'm asking|"
+        "i ask|we ask) (is|now is) (for|)",
+        "i want",
+    ),
     ("(plz|pleez|plese)", "please"),
     ("(why don't|why do not|why not) (we|you)", "please"),
     ("(is|is it|would it be) possible (for|that) (you|we|the robots) (to|can|could)", "please"),
@@ -170,6 +176,8 @@ BEFORE_AN_OBJECT: tuple[tuple[str, str], ...] = (
 """The same, only in front of an object's name."""
 
 BEFORE_A_ZONE: tuple[tuple[str, str], ...] = (
+    ("fly (the|our)", "search the"),
+    ("(anywhere|all about|all around|any place) (on|in|within|over|across)", "in"),
     ("(|i need |we need |i want |we want |get |put |give me |keep )eyes (on|over|above)", "search"),
     (
         "(|have a look at |take a look at |look at |see |check |find out )(what's|what is|who's|who is) (in|over)",

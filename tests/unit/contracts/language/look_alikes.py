@@ -213,6 +213,11 @@ search the north half, I mean everything
 send the rover to base, to the drone I mean
 find the hiker, well, the car
 send the drone, I mean the rover, to base
+fly the drone to the north half
+have the drone fly east
+rover, drone, go to base
+we are done searching, but search the north half
+somebody else needs the drone in the north half
 """
 
 INDOOR = """
@@ -426,4 +431,10 @@ cube to room_b with care
 cube to room_b without the dog
 bottle to room_a, not by dog
 bring me the bottle for the night
+nobody needs the bottle in room_a
+who needs the bottle in room_a?
+the sign says room_a needs the bottle
+nobody wants the quadruped in room_b, does he
+assign the dog: nothing
+I'm done with the dog
 """
