@@ -87,7 +87,9 @@ class Asides(Lookahead):
     def _spoken_like(self, at: int) -> Piece | None:
         """`could you like put it down`, `go to like the first room`."""
         said = self.tokens[at].norm == "like" and bool(self.pieces)
-        asked = said and self.pieces[-1].role in (Role.FILLER, Role.MODAL) and self._action(at + 1) is not None
+        modal = said and self.pieces[-1].is_robot and any(p.role is Role.MODAL for p in self.pieces)
+        asked = modal or (said and self.pieces[-1].role in (Role.FILLER, Role.MODAL))
+        asked = asked and self._action(at + 1) is not None
         placed = said and self.pieces[-1].role in (Role.TO, Role.AT) and self._past_name(at + 1) > at + 1
         return Piece(at, at + 1, Role.FILLER) if asked or placed else None
 

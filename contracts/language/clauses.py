@@ -4,12 +4,22 @@ A clause of a closed kind (`stories.py`) is left out and noted. Any other one th
 unread piece, which is asked back. What names anything of the crew, a figure, a condition or a negation stays as it is.
 """
 
-import re
 from collections.abc import Iterator
 from functools import cache
 from itertools import pairwise
 from typing import NamedTuple
 
+from crew.contracts.language.beside import beside
+from crew.contracts.language.closed_kinds import class_words, fits, said_between
+from crew.contracts.language.courtesies import (
+    CALLED_FROM,
+    CALLING,
+    CALLING_ALL,
+    CALLING_ONE,
+    ENDEARED,
+    THANKS,
+    WANTED_FOR,
+)
 from crew.contracts.language.endings import is_over
 from crew.contracts.language.entry import stands
 from crew.contracts.language.figures import is_numeral
@@ -145,30 +155,43 @@ def _past_joined(tokens: list[Token], at: int, end: int) -> int:
 
 def _harmless(tokens: list[Token], clause: Clause, lexicon: Lexicon, kept: dict[int, Token]) -> range | None:
     """The tokens that a harmless clause loses; None if it is none."""
-    said = _said(tokens, clause.first, clause.after)
+    said = said_between(tokens, clause.first, clause.after)
     if not said:
         return None
     whole = range(clause.start, clause.after)
-    if _fits(HARMLESS, said) and not _names(tokens, clause, lexicon, but=MentionKind.VALUE):
+    if fits(HARMLESS, said) and not _names(tokens, clause, lexicon, but=MentionKind.VALUE):
         return whole
-    purpose = clause.whole and _fits(PURPOSES, _said(tokens, clause.start, clause.after))
+    purpose = clause.whole and fits(PURPOSES, said_between(tokens, clause.start, clause.after))
     if purpose and not _names(tokens, clause, lexicon):
         return whole
-    if clause.whole and _fits(OWN_CHOICE, said):
+    if clause.whole and fits(OWN_CHOICE, said):
         return whole
-    if _brought(tokens, clause, lexicon) and _fits(OF_THEMSELVES, _in_kinds(tokens, clause, lexicon)):
+    if _brought(tokens, clause, lexicon) and fits(OF_THEMSELVES, _in_kinds(tokens, clause, lexicon)):
+        return whole
+    if fits((*THANKS, *CALLING_ALL), said):
+        return whole
+    if clause.whole and fits(ENDEARED, said) and not _names(tokens, clause, lexicon):
+        return whole
+    if fits((*WANTED_FOR, *CALLING), said) and not _names(tokens, clause, lexicon, but=MentionKind.VALUE):
         return whole
     if is_over(tokens, clause.first, clause.after, lexicon):
         return whole
     value = _person(lexicon)
-    if value and _fits(ABOUT_A_PERSON, said) and not _names(tokens, clause, lexicon, but=MentionKind.VALUE):
+    if value and fits(ABOUT_A_PERSON, said) and not _names(tokens, clause, lexicon, but=MentionKind.VALUE):
         _keep_person(tokens, clause, value, kept)
         return whole
-    if _fits(CALLS, said) and not _names(tokens, clause, lexicon):
+    if fits(CALLS, said) and not _names(tokens, clause, lexicon):
         return whole
     if clause.closed_by == ":" and (dropped := _heading(tokens, clause, lexicon)) is not None:
         return dropped
-    called = _in_front_of(ROBOT_KINDS, CALLED, tokens, clause, lexicon)
+    if clause.whole and (told := _told_behind(tokens, clause, lexicon)) is not None:
+        return told
+    if clause.whole and (found := beside(tokens, clause.first, clause.after, lexicon)) is not None:
+        return found
+    called = _in_front_of(ROBOT_KINDS, (*CALLED, *CALLING_ONE), tokens, clause, lexicon)
+    behind = _behind_robot(tokens, clause, lexicon)
+    if behind is not None:
+        return behind
     called = called or _in_front_of((MentionKind.OBJECT,), OUT_OF_REACH, tokens, clause, lexicon)
     return None if called is None else range(clause.start, called)
 
@@ -178,6 +201,25 @@ def _brought(tokens: list[Token], clause: Clause, lexicon: Lexicon) -> bool:
     norms = [t.norm for k, t in enumerate(tokens) if k not in range(clause.start, clause.after)]
     wished = any(who in ("i", "we") and verb in _WISHED for who, verb in pairwise(norms))
     return bool(lexicon.to_requester) and (wished or bool({"me", "us", "my", "i'd", "here"} & set(norms)))
+
+
+def _told_behind(tokens: list[Token], clause: Clause, lexicon: Lexicon) -> range | None:
+    """`bring it to me I'm back here on the couch`: where the person is, without a mark before it."""
+    for cut in range(clause.first + 3, clause.after - 1):
+        if tokens[cut].norm in ("i'm", "i", "we're", "im") and _is_over(tokens, cut, lexicon):
+            told = clause._replace(start=cut, first=cut)
+            if _brought(tokens, told, lexicon) and fits(OF_THEMSELVES, _in_kinds(tokens, told, lexicon)):
+                return range(cut, clause.after)
+    return None
+
+
+def _is_over(tokens: list[Token], at: int, lexicon: Lexicon) -> bool:
+    """Whether what was asked for is said: `to me`, or a name, and no word that leads on."""
+    names = (
+        e for k in range(max(0, at - 3), at) for e in lexicon.names.get(tokens[k].norm, ()) if k + len(e.words) == at
+    )
+    named = any(stands(tokens, at - len(e.words), e.words) for e in names if e.kind is not MentionKind.ACTION)
+    return named or tokens[at - 1].norm in ("me", "us", "please", "here", "it")
 
 
 def _in_kinds(tokens: list[Token], clause: Clause, lexicon: Lexicon) -> str:
@@ -194,7 +236,7 @@ def _in_kinds(tokens: list[Token], clause: Clause, lexicon: Lexicon) -> str:
 
 def _heading(tokens: list[Token], clause: Clause, lexicon: Lexicon) -> range | None:
     """`new task:`, `order for the rover:`, and the words around the noun of an action in `new transport order:`."""
-    if _fits(HEADINGS, _said(tokens, clause.first, clause.after)):
+    if fits(HEADINGS, said_between(tokens, clause.first, clause.after)):
         return range(clause.start, clause.after)
     robot = _in_front_of(ROBOT_KINDS, HEADINGS, tokens, clause, lexicon)
     if robot is not None:
@@ -216,15 +258,24 @@ def _in_front_of(
         name = match(lexicon.names, tokens, at)
         if name is not None and name.kind in kinds and at + len(name.words) == clause.after:
             end = at - 1 if tokens[at - 1].norm in ARTICLES else at
-            return at if end > clause.first and _fits(patterns, _said(tokens, clause.first, end)) else None
+            return at if end > clause.first and fits(patterns, said_between(tokens, clause.first, end)) else None
     return None
+
+
+def _behind_robot(tokens: list[Token], clause: Clause, lexicon: Lexicon) -> range | None:
+    """`g1 from control`: who calls, behind the robot that is called."""
+    name = match(lexicon.names, tokens, clause.first)
+    end = clause.first + (0 if name is None else len(name.words))
+    called = name is not None and name.kind in ROBOT_KINDS and end < clause.after
+    said = called and clause.whole and fits(CALLED_FROM, said_between(tokens, end, clause.after))
+    return range(end, clause.after) if said and not _names(tokens, clause._replace(first=end), lexicon) else None
 
 
 def _keep_person(tokens: list[Token], clause: Clause, value: str, kept: dict[int, Token]) -> None:
     """Keep whom the clause tells of, where `him` or `her` follows."""
     if not any(t.norm in _PEOPLE for t in tokens[clause.after :]):
         return
-    people = frozenset((*_class("people"), *_class("person")))
+    people = frozenset((*class_words("people"), *class_words("person")))
     who = [k for k in range(clause.first, clause.after) if tokens[k].norm in people]
     others = any(t.norm in people for k, t in enumerate(tokens) if k not in range(clause.first, clause.after))
     if who and not others:
@@ -291,30 +342,6 @@ def _names(tokens: list[Token], clause: Clause, lexicon: Lexicon, but: MentionKi
         for k in range(clause.first, clause.after)
         for e in lexicon.names.get(tokens[k].norm, ())
     )
-
-
-def _said(tokens: list[Token], first: int, after: int) -> str:
-    return " ".join(t.norm + (" 's" if t.possessive else "") for t in tokens[first:after])
-
-
-def _fits(patterns: tuple[str, ...], said: str) -> bool:
-    return _compiled(patterns).fullmatch(said) is not None
-
-
-@cache
-def _compiled(patterns: tuple[str, ...]) -> re.Pattern[str]:
-    return re.compile("|".join(f"(?:{_filled(p)})" for p in patterns))
-
-
-def _filled(pattern: str) -> str:
-    while (filled := re.sub(r"<(\w+)>", lambda m: f"(?:{CLASSES[m.group(1)]})", pattern)) != pattern:
-        pattern = filled
-    return pattern
-
-
-@cache
-def _class(name: str) -> tuple[str, ...]:
-    return tuple(w for w in CLASSES[name].split("|") if "<" not in w)
 
 
 @cache

@@ -15,7 +15,11 @@ FRAMES: tuple[str, ...] = (
     "(when|whenever|if) you (have|get|find) (a moment|a minute|a second|a sec|time|the time|a chance|the chance)",
     "(when|whenever) you (can|are ready|are free|like)",
     "(at your convenience|in your own time|by all means|by any chance)",
-    "(be|would you be|could you be) (a dear|a darling|a love|a sport|an angel|a friend) and",
+    "(be|would you be|could you be|do be|please be|will you be|can you be) (a|an|my) (|good |real |dear |little |"
+    "clever |nice |sweet )"
+    "(dear|darling|love|sport|angel|friend|sweetheart|sweetie|star|pet|treasure|hero|help|dog|doggy|robot|"
+    "boy|girl|lad|lass|chap|fellow|man|mate|pal|soul|honey|lamb|champ|gem|helper|drone|rover) and",
+    "(be|do be|please be|would you be|will you be) (so |very |)(good|kind|nice|sweet|helpful|lovely) (and|enough to)",
     "(could|can|may|might) (i|we) (|please |kindly )(ask|beg|request|bother|trouble|get) you to",
     "(i|we) (must|have to|would|want to|would like to|would just like to) (ask|request|beg|tell|instruct) you to",
     "(i|we) (want|need|wish|would like|require|would prefer) that",
@@ -67,6 +71,7 @@ OPENINGS: tuple[str, ...] = (
     "(thirsty|hungry|tired|cold|busy|worried|in a hurry|running late|new here)",
     "(roger|roger that|copy|copy that|affirmative|affirm|wilco|break|break break|radio check|say)",
     "next (up|job|task|order) (|is)",
+    "(uh huh|huh|mm hmm|righty ho|right oh|righto|okey doke|okey dokey|alrighty|alrighty then|rightyho|aye)",
     "(request|requesting|i request|we request|i am requesting|we are requesting|i hereby request|asking for|"
     "we are asking for)",
     "(as for|regarding|concerning|as regards|with regard to)",

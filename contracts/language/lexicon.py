@@ -11,6 +11,7 @@ from crew.contracts.language.entry import Entry, Words, stands, words_of
 from crew.contracts.language.inflect import Form, inflections
 from crew.contracts.language.mention import MentionKind, StepRef
 from crew.contracts.language.naming import entities
+from crew.contracts.language.plainer import plainer_words
 from crew.contracts.language.rewrites import wording_words
 from crew.contracts.language.spelling import SHORTEST_SWAPPED, Vocabulary
 from crew.contracts.language.stories import told_words
@@ -73,7 +74,11 @@ class Lexicon(msgspec.Struct, frozen=True, kw_only=True, dict=True):
         entries = [entry for table in tables for found in table.values() for entry in found]
         single = {e.words[0]: e for e in entries if len(e.words) == 1 and e.role is not Role.MENTION}
         return Vocabulary(
-            known=frozenset(word for e in entries for word in e.words) | SINGLE_WORDS | wording_words() | told_words(),
+            known=frozenset(word for e in entries for word in e.words)
+            | SINGLE_WORDS
+            | wording_words()
+            | told_words()
+            | plainer_words(),
             names=frozenset(word for found in self.names.values() for e in found for word in e.words),
             silent=frozenset(word for word, e in single.items() if e.role in SILENT),
             pronouns=frozenset(w for w, e in single.items() if e.role in LINKING and len(w) >= SHORTEST_SWAPPED)

@@ -24,6 +24,8 @@ from crew.contracts.language.words import Role
 
 MAX_CHARACTERS = 4_000
 MAX_TOKENS = 400
+_LATER = frozenset(("later", "afterwards", "afterward", "subsequently", "after that", "after this"))
+"""What says when, where one thing only is asked for."""
 
 
 def read_request(text: str, lexicon: Lexicon) -> Reading:
@@ -44,6 +46,7 @@ def read_request(text: str, lexicon: Lexicon) -> Reading:
     loose_ends(pieces, lexicon)
     _everything(pieces, lexicon)
     _first(pieces)
+    _later(pieces)
     participles(pieces)
     place_pronouns(pieces)
     hosts(pieces, lexicon)
@@ -118,6 +121,14 @@ def _first(pieces: list[Piece]) -> None:
         if piece.role is Role.FIRST and acted:
             then = any(p.role is Role.THEN for p in pieces[pieces.index(piece) :])
             piece.become(Role.FILLER if then else Role.UNREAD)
+
+
+def _later(pieces: list[Piece]) -> None:
+    """`take it there later`: no order of two things, but a time."""
+    alone = sum(p.is_action for p in pieces) < 2
+    for piece in pieces:
+        if piece.role is Role.THEN and piece.norm in _LATER and alone:
+            piece.become(Role.UNREAD)
 
 
 def _assemble(

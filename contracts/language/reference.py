@@ -41,7 +41,7 @@ def _resolve(pieces: list[Piece], at: int, lexicon: Lexicon) -> str | None:
     for group in _groups(pieces, at, lexicon):
         if group == (MentionKind.ZONE,) and _sought(pieces, pronoun, lexicon):
             return None
-        found = [p for p in earlier if p.kind in group and _able(pieces, at, p, lexicon)]
+        found = [p for p in earlier if p.kind in group and _able(pieces, at, p, lexicon) and not _part(p, lexicon)]
         if not found:
             continue
         if not found[-1].positive:
@@ -74,6 +74,8 @@ def _groups(pieces: list[Piece], at: int, lexicon: Lexicon) -> Iterator[Group]:
     if pronoun.norm in _PEOPLE:
         yield (MentionKind.VALUE,)
         return
+    if pronoun.norm == "them" and previous is not None and previous.role is Role.TO:
+        yield (MentionKind.VALUE,)
     if pronoun.norm in ("there", "over there") or (previous is not None and previous.role in PLACE_ROLES):
         yield _PLACES
         yield (MentionKind.ZONE,)
@@ -87,6 +89,11 @@ def _groups(pieces: list[Piece], at: int, lexicon: Lexicon) -> Iterator[Group]:
     yield _ROBOTS
     yield (MentionKind.VALUE,)
     yield (MentionKind.OBJECT,)
+
+
+def _part(candidate: Piece, lexicon: Lexicon) -> bool:
+    """`load it on the dog and deliver it there`: a robot's own back is nowhere to deliver to."""
+    return candidate.kind is MentionKind.LOCATION and candidate.name in lexicon.hosts
 
 
 def _verb_of(pieces: list[Piece], at: int) -> Piece | None:

@@ -9,6 +9,8 @@ from crew.contracts.language.findings import findings
 from crew.contracts.language.lexicon import Lexicon
 from crew.contracts.language.lookahead import ARTICLES, named
 from crew.contracts.language.mention import ROBOT_KINDS, MentionKind
+from crew.contracts.language.patterns import replaced
+from crew.contracts.language.plainer import PLAINER
 from crew.contracts.language.restated import restated
 from crew.contracts.language.rewrites import (
     ARROWS,
@@ -24,6 +26,7 @@ from crew.contracts.language.rewrites import (
     wordings_before_robots,
     wordings_before_zones,
 )
+from crew.contracts.language.spoken import spoken
 from crew.contracts.language.staying import staying
 from crew.contracts.language.tokens import Shape, Token
 from crew.contracts.language.told import told
@@ -39,7 +42,8 @@ def rewritten(tokens: list[Token], lexicon: Lexicon) -> list[Token]:
     out: list[Token] = []
     at = 0
     tokens = findings(restated(tokens, lexicon), lexicon)
-    tokens = told([t for k, t in enumerate(tokens) if not _hesitation(tokens, k, lexicon)], lexicon)
+    tokens = spoken([t for k, t in enumerate(tokens) if not _hesitation(tokens, k, lexicon)], lexicon)
+    tokens = told(replaced(tokens, PLAINER, lexicon), lexicon)
     tokens = staying(endings(tokens, lexicon), lexicon)
     while at < len(tokens):
         words, plain = (

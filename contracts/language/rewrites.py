@@ -67,7 +67,8 @@ REWRITES: tuple[tuple[str, str], ...] = (
     ("(is|are) (in need of|short of|asking for|calling for|requesting)", "needs"),
     ("(asks for|calls for|requires|requests|could do with|could use)", "needs"),
     (
-        "(has|have) (asked for|called for|requested|ordered|run out of|phoned for|radioed for|put in for|sent for)",
+        "(has|have) (|just |now )(asked for|called for|requested|ordered|run out of|phoned for|radioed for|put in for|"
+        "sent for|been asking for|asked to have)",
         "needs",
     ),
     ("(make your way|make its way|find your way|get yourself|take yourself|betake yourself) to", "go to"),
@@ -119,7 +120,8 @@ REWRITES: tuple[tuple[str, str], ...] = (
 """What is said, and what it is read as."""
 
 BEFORE_A_PLACE: tuple[tuple[str, str], ...] = (
-    ("(down|up|back down|back up) to", "to"),
+    ("(down|up|back down|back up|home|back home|on home|off|on down) to", "to"),
+    ("(over|across|round|out|down|back) (in|at)", "in"),
     ("back", "to"),
     ("(goes|belongs|should go|must go|has to go|needs to go) (on|onto)", "put on"),
     ("(set off|set out|start out|start off|leave|depart|make) for", "go to"),
@@ -171,6 +173,15 @@ BEFORE_AN_OBJECT: tuple[tuple[str, str], ...] = (
     ("(rest|stick|plonk|plop|deposit)", "put"),
     ("(clutch|grip|clasp)", "hold"),
     ("i wonder if (i|we) (might|may|can|could) (have|get)", "could i have"),
+    ("(i'm|i am|we're|we are) (dying|gasping|longing|desperate|itching|aching|yearning|waiting) for", "i want"),
+    (
+        "(i|we) (|really |do |just )(could murder|could kill for|would kill for|fancy|could do with|could use|"
+        "would die for|crave|wish for|wish i had|wouldn't mind|long for|could have)",
+        "i want",
+    ),
+    ("(i'd|we'd) (|really |just )(kill for|fancy|die for|give anything for|murder|settle for|welcome)", "i want"),
+    ("(|oh )how (i'd|i would|we'd) (love|like)", "i want"),
+    ("(can|could|may) (i|we) get (my|our) hands on", "could i have"),
     ("(let me have|let us have|i'll have|i'll take|i will have|i will take|we'll have|we'll take)", "could i have"),
 )
 """The same, only in front of an object's name."""

@@ -6,6 +6,7 @@ quantity, a permission, a warning or a condition: whoever adds a word here asks 
 
 import re
 
+from crew.contracts.language.courtesies import COURTEOUS_CLASSES
 from crew.contracts.language.persons import CIVIL, COMPOUNDS, FAMILY, HELPERS, REPORTED, YEARS_OLD
 
 CLASSES: dict[str, str] = {
@@ -119,6 +120,7 @@ CLASSES: dict[str, str] = {
     "thanks": "thanks|thank you|many thanks|thanks a lot|thanks so much|thank you so much|thank you very much|"
     "thanks a million|thanks a bunch|ta|cheers|bless you|god bless|god bless you|thanks in advance|"
     "thank you in advance|thank you kindly|thanks for your help|thank you for your help|much obliged|much appreciated",
+    **COURTEOUS_CLASSES,
 }  # fmt: skip
 """Classes of wordings, by the name that the patterns give them."""
 

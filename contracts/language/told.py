@@ -3,15 +3,13 @@
 Every rule needs the robot's name in its place, and that each robot that may be meant can do it.
 """
 
-from collections.abc import Iterator
-
 from crew.contracts.language.entry import Entry, stands_all
 from crew.contracts.language.figures import is_numeral
-from crew.contracts.language.inflect import Form, inflections
 from crew.contracts.language.lexicon import Lexicon, match
 from crew.contracts.language.lookahead import ARTICLES, named
 from crew.contracts.language.mention import ROBOT_KINDS, MentionKind
-from crew.contracts.language.rewrites import ASSIGNING, DOWN_ON, LOWERING, RAISING, TASKING, UP_IN, WISHING
+from crew.contracts.language.patterns import begins
+from crew.contracts.language.rewrites import ASSIGNING, DOWN_ON, LOWERING, RAISING, TASKING, UP_IN
 from crew.contracts.language.tokens import Shape, Token
 from crew.contracts.language.words import AFFECTIVE
 
@@ -29,7 +27,7 @@ def told(tokens: list[Token], lexicon: Lexicon) -> list[Token]:
     out: list[Token] = []
     at = 0
     while at < len(tokens):
-        rules = (rule(tokens, at, lexicon) for rule in (_raised, _lowered, _bare, _tasked, _assigned, _done, _put))
+        rules = (rule(tokens, at, lexicon) for rule in (_raised, _lowered, _bare, _tasked, _assigned))
         words, plain = next((found for found in rules if found is not None), (1, tokens[at : at + 1]))
         out.extend(plain)
         at += words
@@ -72,7 +70,7 @@ def _lowered(tokens: list[Token], at: int, lexicon: Lexicon) -> Rule | None:
 
 def _bare(tokens: list[Token], at: int, lexicon: Lexicon) -> Rule | None:
     """`drone up, ...`, `drone down`, `ground the drone`: to launch it, to land it."""
-    if not _begins(tokens, at):
+    if not begins(tokens, at):
         return None
     end = _robot(tokens, at + 1, lexicon, _LAND) if tokens[at].norm == "ground" else None
     if end is not None and _ended(tokens, end):
@@ -110,38 +108,6 @@ def _assigned(tokens: list[Token], at: int, lexicon: Lexicon) -> Rule | None:
     if placed is not None and placed.kind is not MentionKind.ACTION:
         return None
     return 1, [_said(tokens[at], _TELL)]
-
-
-def _done(tokens: list[Token], at: int, lexicon: Lexicon) -> Rule | None:
-    """`have it delivered to room_b`: to deliver it there."""
-    wished = tokens[at].norm in WISHING and at + 2 < len(tokens) and tokens[at + 1].norm in ("it", "them")
-    if not wished or not _begins(tokens, at):
-        return None
-    done = [e for e in lexicon.names.get(tokens[at + 2].norm, ()) if e.kind is MentionKind.ACTION and len(e.words) == 1]
-    base = next((verb for e in done for verb in _bases(e, lexicon)), None)
-    return None if base is None else (3, [_said(tokens[at], base), tokens[at + 1]])
-
-
-def _put(tokens: list[Token], at: int, lexicon: Lexicon) -> Rule | None:
-    """`have the bottle put on table_b`: to put it there."""
-    name, end = named(tokens, at + 1, lexicon) if tokens[at].norm in ("have", "get") else (None, at)
-    if name is None or name.kind is not MentionKind.OBJECT or not _begins(tokens, at):
-        return None
-    put = any(stands_all(tokens, end, (verb, link)) for verb in ("put", "set") for link in ("on", "onto"))
-    return (end + 1 - at, [_said(tokens[at], "put"), *tokens[at + 1 : end]]) if put else None
-
-
-def _begins(tokens: list[Token], at: int) -> bool:
-    """Whether what stands here is asked for, and not told of somebody."""
-    return not at or tokens[at - 1].shape is Shape.MARK or tokens[at - 1].norm in _OPENS
-
-
-def _bases(done: Entry, lexicon: Lexicon) -> Iterator[str]:
-    """The verbs of which this is the past form."""
-    if done.form is Form.PAST:
-        single = (e for found in lexicon.names.values() for e in found if len(e.words) == 1)
-        bases = (e.words for e in single if e.kind is MentionKind.ACTION and e.form is Form.BASE)
-        yield from (words[0] for words in bases if (Form.PAST, done.words) in inflections(words))
 
 
 def _robot(tokens: list[Token], at: int, lexicon: Lexicon, verb: str = "") -> int | None:

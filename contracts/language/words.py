@@ -224,11 +224,23 @@ AFFECTIVE: frozenset[str] = word_set(
 QUALITIES: frozenset[str] = word_set("quick good full thorough proper careful complete detailed close systematic")
 """Adjectives of a search that no skill here can heed, and that none would refuse."""
 NICKNAMES: dict[str, tuple[str, ...]] = {
-    "dog": ("doggy", "doggie", "doggo", "pup", "puppy", "hound", "pooch", "robodog", "quadrupedal robot"),
+    "dog": (
+        "doggy", "doggie", "doggo", "pup", "puppy", "hound", "pooch", "robodog", "quadrupedal robot", "dog robot",
+        "four legged robot", "four legged one", "four legged friend", "four legged machine", "four legged fellow",
+        "robot with four legs", "one with four legs", "one with the four legs", "one on four legs", "robot hound",
+        "four legged dog", "four legged thing", "four legger", "dogbot", "dog bot", "robo dog", "small robot",
+        "smaller robot", "walking robot", "four legged helper",
+    ),
     "robot": ("bot", "droid"),
     "drone": ("uav", "helicopter", "chopper", "quadrocopter", "multicopter", "aircraft", "flyer", "aerial vehicle"),
     "rover": ("buggy", "ground vehicle", "ground unit", "wheeled robot"),
-    "humanoid": ("android",),
+    "humanoid": (
+        "android", "two legged robot", "two legged one", "robot with two legs", "one with two legs", "big robot",
+        "bigger robot", "tall robot", "taller robot", "large robot", "robot with arms", "one with arms",
+        "robot with the arms", "one with the arms", "robot with hands", "one with hands", "one with the hands",
+        "robot with the arm", "one with the arm", "human like robot", "humanlike robot", "manlike robot",
+        "two legged machine", "two legged fellow", "standing robot", "two armed robot", "robot man",
+    ),
 }  # fmt: skip
 """What people call a class of robots beside its aliases."""
 IN_NEED: frozenset[str] = word_set("hurt injured lost missing wounded stranded trapped overdue there")

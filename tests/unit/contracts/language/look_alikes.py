@@ -437,4 +437,201 @@ the sign says room_a needs the bottle
 nobody wants the quadruped in room_b, does he
 assign the dog: nothing
 I'm done with the dog
+put the bottle into his hand
+put the bottle in my pocket
+put the bottle in my hand tomorrow
+don't put the bottle in my hand
+leave the bottle in my hand
+put the bottle in my hand if I ask
+put the bottle in the nurse's hand
+put the bottle in my left hand
+the bottle is in my hand
+take the bottle to my house
+take the bottle to my wife
+bring the bottle to my brother's chair
+bring the bottle to his chair
+bring the bottle to where I was sitting
+bring the bottle to where I sat yesterday
+take the bottle to where she sits
+bring the bottle to my room
+bring the bottle to my old table
+put the bottle on my desk
+put the cube on my chair
+take the bottle from my desk
+send the dog to my office
+send the dog away from my chair
+take the bottle to my desk
+take the bottle to room A for the children only
+take the bottle to room A, not for the children
+is the bottle in room A for the children
+the bottle in room A is for the children
+grab the cube for the children
+take the cube for the children
+take the bottle to the children
+take the bottle to my wife in the kitchen
+take the bottle to the nurse in room C
+take the bottle to room charlie
+go to room delta, dog
+put the cube on table charlie
+take the bottle to room A as in bravo
+take the bottle to room B as in alpha
+take the bottle to room A, bravo
+take the bottle to room alpha or bravo
+send the dog to alpha
+take the bottle to room be
+put the cube on table ace
+take the bottle to bravo room B or A
+dog, go to drop off the bottle
+proceed to drop off the parcel
+go to drop off, don't
+drop off the dog
+the drop off is closed, go to drop off
+proceed to the drop off hut
+kitchen to robots: no bottle to room A
+ward to quadruped: do not move
+lab: quadruped, stay
+water to quadruped, go to room A
+medicine to dog, go to room A
+this is not control, send the dog to room A
+this is a test, send the dog to room A
+this is wrong, send the dog to room A
+this is an exercise, send the dog to room A
+this is dangerous here, send the dog to room A
+it's the wrong dog, send the dog to room A
+stage to crew: red cube to dropoff in ten minutes, quadruped carries, over
+the dog is needed in room B, don't send it over
+the dog is needed in room B or room A, send it over
+the dog was needed in room B, send it over
+send it over
+the dog is not needed in room B, send it back
+room B needs no water. Load the bottle on the quadruped
+room B needed water. Take the bottle to room C
+room B has no water, so don't take the bottle there
+room B needs drinking water from the kitchen, take the bottle there
+room B needs water and the cube, take the bottle there
+the children in room C want the cube
+the children in room B don't want the cube
+the children in room B wanted the cube
+the nurse in room B has the cube
+the operator has moved to room C and needs the cube; take it to them
+the operator is not in room A; take the cube there
+the operator was in room A and needed the cube
+the operator is in room A, don't take the cube to them
+the block was set down on the first table
+the block has been set down on the first table
+they have the block set down on the first table
+I had the block set down on the first table
+why was the block put on table A
+who wants the bottle moved to room A
+nobody wants the bottle moved to room A
+he wants the bottle moved to room A
+she would like the cube brought to room A
+I do not want the bottle moved to room A
+I don't want the cube brought to me
+I wouldn't like the cube put on table A
+the cube doesn't need bringing to room A
+the cube needs washing
+the cube needs cleaning and bringing to room A
+the cube needed bringing to room A
+does the cube need bringing to room A
+I want the bottle moved to room A later
+I need the cube on table A washed
+have the bottle emptied and taken to room A
+have the bottle moved to room A by the nurse
+get the bottle over to the other side
+see the bottle gets nowhere
+make sure the bottle stays on table A
+make sure the bottle isn't on table B
+make sure the bottle ends up nowhere near table B
+the broken robot dog should go to room A
+the second dog should go to room A
+send the other dog to room A
+send the black and white dog next door to room A
+send the big cat to room A
+the six legged one should go to room A
+the big dog's owner should go to room A
+send the dog of my neighbour to room A
+send the big robot to room A
+the tall robot should walk to room A
+the one with arms should go to room A
+poor thing, don't send the dog to room A
+it must be broken, send the dog to room A
+it must be stuck, send the dog to room A
+it looks broken, send the dog to room A
+you must be careful, send the dog to room A
+there's a dog, send the dog to room A
+there's a good reason not to, send the dog to room A
+there's a boy, send the dog to room A
+there's a man, send the dog to room A
+that's a problem, send the dog to room A
+no thanks, send the dog to room A
+send the dog to room A, no thank you
+thanks but no thanks, send the dog to room A
+send the dog to room A, I'd be grateful if you didn't
+send the dog to room A, I'd appreciate it if you waited
+send the dog to room A, you're too early
+be a dear and don't give me the bottle
+be careful and give me the bottle
+be quick or give me the bottle
+be a good dog or go to room A
+send the dog to room A and leave it there until noon
+send the dog to room A and leave it there for an hour
+send the dog to room A and don't leave it there
+send the dog to room A and wait for the nurse
+send the dog to room A and wait there, then come back
+dog, go to room A and wait for my signal
+dog, go to room A and wait there five minutes
+take the bottle to room A and leave it there
+take the bottle to room A and stay away
+leave it there
+stay there, dog
+can I have the red cube, I don't want to play with it
+I want to play with it
+I want to play with the red cube
+I want to break it, give me the cube tomorrow
+I'm dying for some water
+I'm dying for a beer, give me the beer
+I'm dying, give me the hammer
+so I can see it, nothing else
+can I have a cube to play with tomorrow
+take it off the table and put it on the other
+put it on the other one
+put the cube on the other one
+take the cube off table A or put it on the other table
+move the cube to the other shelf
+take the cube off table A and table B and put it on the other one
+can you can you not send the dog to room A
+don't don't send the dog to room A
+no no send the dog to room A
+send the dog to to room A or to room B
+wave again again
+send the dog to room A room A tomorrow
+I mean no, put the cube on table A
+I mean it, don't put the cube on table A
+put the cube, I mean just, on table A or B
+could I murder somebody
+how I'd love the dog
+I fancy the nurse
+let's have the cube washed
+let's have lunch
+let's have the hammer
+is it possible the dog goes to room A?
+is it possible that the dog went to room A
+do that, not the dog to room A
+make it so the dog does not go to room A
+put the dog on charge tomorrow
+don't put the dog on charge
+put the phone on charge
+is the dog charging
+the dog is charging
+the dog looks tired
+load the cube onto the dog and off to room C with it
+the bottle on the dog's back
+is the bottle on the dog's back
+take the bottle off the dog's back
+bottle
+bottle for him please
+the bottle is for me
+is the bottle for me
+not the bottle for me please
 """

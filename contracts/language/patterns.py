@@ -1,0 +1,251 @@
+"""Wordings with names in them: `have {object} {done}` is put into plainer words, the names kept where they stand.
+
+`(a|b)` is a choice and may be empty. `{object}`, `{place}`, `{robot}` stand for a name with its article, `{operator}`
+for a noun of whoever asks, `{owner}` for a robot's possessive, `{giver}` for a robot that hands things over, `{it}` a
+pronoun, `{done}` and `{doing}` for such a form of one of the crew's verbs; in the plainer words these two are the verb
+itself. `^` and `$` are where a clause begins and ends, `^^` and `$$` where the request does.
+"""
+
+import re
+from collections.abc import Callable, Iterator, Mapping
+from functools import cache
+from typing import NamedTuple
+
+from crew.contracts.language.entry import Entry, Words, stands_all
+from crew.contracts.language.inflect import Form, inflections
+from crew.contracts.language.lexicon import Lexicon, match
+from crew.contracts.language.lookahead import ARTICLES
+from crew.contracts.language.mention import ROBOT_KINDS, MentionKind
+from crew.contracts.language.tokens import Shape, Token
+from crew.contracts.language.words import AFFECTIVE, REQUESTER, SELF_WORDS
+
+_PART = re.compile(r"\(([^()]*)\)|\{(\w+)\}|(\S+)")
+_OPENS = frozenset(("and", "then", "please", "so", "now", "just", "kindly", "to", "also", "okay", "ok", "well", "hey"))
+_ASKING = frozenset(("can", "could", "would", "will", "may", "might", "if", "mind"))
+_CLOSES = frozenset(("and", "then", "please", "so", "now", "over", "thanks"))
+_SELVES = frozenset((*SELF_WORDS, "us"))
+_SAME_PAST = frozenset(("put", "set"))
+
+Found = tuple[int, tuple[Token, ...]]
+"""Where a name is over, and what is kept of it."""
+
+
+class Slot(NamedTuple):
+    """A name's place in a pattern."""
+
+    name: str
+
+
+Element = tuple[Words, ...] | Slot
+
+
+class Pattern(NamedTuple):
+    """One wording, and what is said for it."""
+
+    begins: str
+    elements: tuple[Element, ...]
+    ends: str
+    plain: tuple[str | Slot, ...]
+
+
+def compiled(wording: str, plain: str) -> Pattern:
+    """A pattern from its two templates."""
+    begins = next((mark for mark in ("^^", "^") if wording.startswith(mark + " ")), "")
+    ends = next((mark for mark in ("$$", "$") if wording.endswith(" " + mark)), "")
+    inner = wording[len(begins) : len(wording) - len(ends) or None]
+    elements: list[Element] = []
+    for group, slot, word in _PART.findall(inner):
+        if slot:
+            elements.append(Slot(slot))
+        else:
+            choices = {tuple(w.split()): None for w in (group.split("|") if not word else (word,))}
+            elements.append(tuple(sorted(choices, key=len, reverse=True)))
+    said = tuple(Slot(w[1:-1]) if w.startswith("{") else w for w in plain.split())
+    return Pattern(begins, tuple(elements), ends, said)
+
+
+def replaced(tokens: list[Token], templates: tuple[tuple[str, str], ...], lexicon: Lexicon) -> list[Token]:
+    """The tokens with every wording in its plainer words; of several that fit at a place the first."""
+    patterns, table, loose = _indexed(templates)
+    out: list[Token] = []
+    at = 0
+    while at < len(tokens):
+        for k in sorted((*table.get(tokens[at].norm, ()), *loose)):
+            found = _fits(patterns[k], tokens, at, lexicon)
+            if found is not None:
+                end, plain = found
+                out.extend(plain)
+                at = end
+                break
+        else:
+            out.append(tokens[at])
+            at += 1
+    return out
+
+
+@cache
+def _indexed(
+    templates: tuple[tuple[str, str], ...],
+) -> tuple[tuple[Pattern, ...], Mapping[str, tuple[int, ...]], tuple[int, ...]]:
+    """Patterns, those of each first word, and those that begin with a name or may begin with the next word."""
+    patterns = tuple(compiled(*template) for template in templates)
+    table: dict[str, list[int]] = {}
+    loose = []
+    for k, pattern in enumerate(patterns):
+        first = pattern.elements[0]
+        if isinstance(first, Slot) or () in first:
+            loose.append(k)
+            continue
+        for word in dict.fromkeys(words[0] for words in first):
+            table.setdefault(word, []).append(k)
+    return patterns, {word: tuple(of) for word, of in table.items()}, tuple(loose)
+
+
+def _fits(pattern: Pattern, tokens: list[Token], at: int, lexicon: Lexicon) -> tuple[int, list[Token]] | None:
+    if (pattern.begins == "^^" and at) or (pattern.begins == "^" and not begins(tokens, at)):
+        return None
+    for end, parts in _ways(pattern.elements, tokens, at, lexicon):
+        closed = not pattern.ends or (end >= len(tokens) if pattern.ends == "$$" else ends(tokens, end))
+        if closed and end > at:
+            return end, list(_said(pattern, tokens, at, end, parts))
+    return None
+
+
+Part = tuple[str, int, int, tuple[Token, ...]]
+"""A slot's name, the tokens that it covers, and what is kept of them."""
+
+
+def _ways(
+    elements: tuple[Element, ...], tokens: list[Token], at: int, lexicon: Lexicon
+) -> Iterator[tuple[int, tuple[Part, ...]]]:
+    if not elements:
+        yield at, ()
+        return
+    first, rest = elements[0], elements[1:]
+    if isinstance(first, Slot):
+        found = SLOTS[first.name](tokens, at, lexicon) if at < len(tokens) else None
+        if found is not None:
+            for end, parts in _ways(rest, tokens, found[0], lexicon):
+                yield end, ((first.name, at, *found), *parts)
+        return
+    for words in first:
+        if not words or stands_all(tokens, at, words):
+            yield from _ways(rest, tokens, at + len(words), lexicon)
+
+
+def _said(pattern: Pattern, tokens: list[Token], at: int, end: int, parts: tuple[Part, ...]) -> Iterator[Token]:
+    """Names as they stand; each other word over what was said around it."""
+    left = list(parts)
+    place = at
+    for k, item in enumerate(pattern.plain):
+        if isinstance(item, Slot):
+            part = next(p for p in left if p[0] == item.name)
+            left.remove(part)
+            yield from part[3]
+            place = part[2]
+            continue
+        later = (i for i in pattern.plain[k + 1 :] if isinstance(i, Slot))
+        ahead = next((p for i in later for p in left if p[0] == i.name), None)
+        stop = end if ahead is None else ahead[1]
+        covers = tokens[place:stop] or tokens[max(at, stop - 1) : max(at, stop - 1) + 1]
+        yield Token(item, covers[0].start, covers[-1].end, Shape.WORD)
+
+
+def begins(tokens: list[Token], at: int) -> bool:
+    """Whether what stands here is asked for, and not told of somebody."""
+    if not at or tokens[at - 1].shape is Shape.MARK or tokens[at - 1].norm in _OPENS:
+        return True
+    asked = at > 1 and tokens[at - 2].norm in _ASKING
+    return asked and tokens[at - 1].norm in ("you", "we", "u")
+
+
+def ends(tokens: list[Token], at: int) -> bool:
+    """Whether a clause ends in front of this place."""
+    return at >= len(tokens) or tokens[at].shape is Shape.MARK or tokens[at].norm in _CLOSES
+
+
+def past_article(tokens: list[Token], at: int) -> int:
+    """Past articles, `one`, and words of affection."""
+    while at < len(tokens) and (
+        tokens[at].norm in ARTICLES or tokens[at].norm in AFFECTIVE or tokens[at].norm == "one"
+    ):
+        at += 1
+    return at
+
+
+def _name(tokens: list[Token], at: int, lexicon: Lexicon) -> tuple[Entry | None, int]:
+    start = past_article(tokens, at)
+    name = match(lexicon.names, tokens, start) if start < len(tokens) else None
+    return name, start + (0 if name is None else len(name.words))
+
+
+def _of_kind(*kinds: MentionKind) -> Callable[[list[Token], int, Lexicon], Found | None]:
+    def read(tokens: list[Token], at: int, lexicon: Lexicon) -> Found | None:
+        name, end = _name(tokens, at, lexicon)
+        if name is None or name.kind not in kinds or tokens[end - 1].possessive:
+            return None
+        return end, tuple(tokens[at:end])
+
+    return read
+
+
+def _operator(tokens: list[Token], at: int, lexicon: Lexicon) -> Found | None:
+    name, end = _name(tokens, at, lexicon)
+    own = name is not None and name.name == REQUESTER and not set(name.words) & _SELVES
+    return (end, tuple(tokens[at:end])) if own and not tokens[end - 1].possessive else None
+
+
+def _giver(tokens: list[Token], at: int, lexicon: Lexicon) -> Found | None:
+    """A robot that can hand things over."""
+    name, end = _name(tokens, at, lexicon)
+    skills = {ref.skill for e in lexicon.names.get("hand", ()) if e.words == ("hand",) for ref in e.means}
+    robot = name is not None and name.kind in ROBOT_KINDS and not tokens[end - 1].possessive
+    able = name is not None and all(skills & lexicon.members.get(str(v), frozenset()) for v in name.values)
+    return (end, tuple(tokens[at:end])) if robot and able else None
+
+
+def _owner(tokens: list[Token], at: int, lexicon: Lexicon) -> Found | None:
+    name, end = _name(tokens, at, lexicon)
+    owns = name is not None and name.kind in ROBOT_KINDS and tokens[end - 1].possessive
+    return (end, (*tokens[at : end - 1], tokens[end - 1]._replace(possessive=False))) if owns else None
+
+
+def _it(tokens: list[Token], at: int, lexicon: Lexicon) -> Found | None:
+    return (at + 1, (tokens[at],)) if tokens[at].norm in ("it", "them") else None
+
+
+def _of_form(*forms: Form) -> Callable[[list[Token], int, Lexicon], Found | None]:
+    def read(tokens: list[Token], at: int, lexicon: Lexicon) -> Found | None:
+        for entry in lexicon.names.get(tokens[at].norm, ()):
+            if entry.kind is not MentionKind.ACTION or not stands_all(tokens, at, entry.words):
+                continue
+            same = Form.PAST in forms and entry.form is Form.BASE and entry.words[0] in _SAME_PAST
+            base = entry.words if same else _base(entry, lexicon) if entry.form in forms else None
+            if base is not None:
+                end = at + len(entry.words)
+                said = tokens[at:end]
+                return end, tuple(token._replace(norm=word) for token, word in zip(said, base, strict=True))
+        return None
+
+    return read
+
+
+def _base(entry: Entry, lexicon: Lexicon) -> Words | None:
+    """The verb of which this is a form."""
+    verbs = (e for found in lexicon.names.values() for e in found if e.kind is MentionKind.ACTION)
+    alike = (e for e in verbs if e.form is Form.BASE and len(e.words) == len(entry.words) and e.means == entry.means)
+    return next((e.words for e in alike if (entry.form, entry.words) in inflections(e.words)), None)
+
+
+SLOTS: Mapping[str, Callable[[list[Token], int, Lexicon], Found | None]] = {
+    "object": _of_kind(MentionKind.OBJECT),
+    "place": _of_kind(MentionKind.LOCATION),
+    "robot": _of_kind(*ROBOT_KINDS),
+    "operator": _operator,
+    "giver": _giver,
+    "owner": _owner,
+    "it": _it,
+    "done": _of_form(Form.PAST),
+    "doing": _of_form(Form.ING),
+}
+"""What may stand in a slot."""
