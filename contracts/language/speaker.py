@@ -23,7 +23,7 @@ _IN = (
     f"(?:in|inside|on|into) (?:{_DETERMINER} )?(?:other |next |big |little |old |back |front |own )?(?:{_ROOMS}|@place)"
 )
 _BY = (
-    "(?:right |just |directly |immediately |close |very |quite |so )*"
+    "(?:right |just |directly |immediately |close |very |quite |so ){0,3}"
     "(?:next to|next|beside|by|near|nearby|near to|near of|close to|close by|close|alongside|at|opposite|across from|"
     "away from|far from|far away from|a long way from|on the other side of)"
 )
@@ -53,12 +53,12 @@ _AM = (
 _TAIL = (
     "(?: (?:here|over here|right here|over there|there|only|now|today|at the moment|right now|already|waiting|"
     "and waiting|ready|for it|for now|though|you see|"
-    "too))*"
+    "too)){0,3}"
 )
 _HAND = "(?:hand|hands|palm|palms|arm|arms)"
 _HELD = (
     f"with (?:my|a|one|both) (?:free |open |right |left )?{_HAND}"
-    "(?: (?:out|open|ready|up|free|held out|stretched out|outstretched))*"
+    "(?: (?:out|open|ready|up|free|held out|stretched out|outstretched)){0,3}"
 )
 
 _CANNOT = (
@@ -90,7 +90,7 @@ _USED = f"(?:{_DETERMINER} )?(?:{_NOT_A_TIME}{_NOUN} ){{0,2}}{_NOT_A_TIME}{_NOUN
 OF_THEMSELVES: tuple[str, ...] = (
     "(?:i|we|i'd|we'd)(?: just| really| only| do)? (?:need|want|like|would like|am going to|are going to|have|love|"
     f"would love|got)(?: it| that| this| one)?(?: to (?:{_USE})(?: (?:it|that|this|with it|with that|some))?"
-    f"(?:(?: (?:to|with|for|on|in|at))? {_USED})?| for {_USED})(?: (?:now|soon|please|too|today|again))*",
+    f"(?:(?: (?:to|with|for|on|in|at))? {_USED})?| for {_USED})(?: (?:now|soon|please|too|today|again)){{0,2}}",
     f"(?:it's|it is|that's|that is) for {_USED}",
     "(?:to|so i can|so that i can|so we can|so that we can) (?:play|drink|show|work|experiment|practise|practice)"
     f"(?: (?:it|with it|some|with {_USED}|to {_USED}))?",
@@ -98,14 +98,14 @@ OF_THEMSELVES: tuple[str, ...] = (
     f"(?:it|that|this|some)(?: for {_USED})?",
     f"(?:{_CANNOT})(?: easily| quite| really| just| so well| very well)* (?:{_COME})"
     "(?: (?:so well|very well|well|easily|myself|right now|at the moment|any more|anymore|just now|now|today|"
-    "quickly))*"
-    f"(?: (?:from|out of|off|with|on|in|because of) {_THING}| {_AT})*{_TAIL}",
-    f"{_AM}(?: (?:{_LOOSE}))*(?: (?:{_HERE}))?(?: {_AT})+{_TAIL}(?: {_HELD})?",
-    f"{_AM}(?: (?:{_LOOSE}))*(?: (?:{_HERE})){_TAIL}(?: {_HELD})?",
+    "quickly)){0,2}"
+    f"(?: (?:from|out of|off|with|on|in|because of) {_THING}| {_AT}){{0,2}}{_TAIL}",
+    f"{_AM}(?: (?:{_LOOSE})){{0,5}}(?: (?:{_HERE}))?(?: {_AT}){{1,2}}{_TAIL}(?: {_HELD})?",
+    f"{_AM}(?: (?:{_LOOSE})){{0,5}}(?: (?:{_HERE})){_TAIL}(?: {_HELD})?",
     f"(?:i've|i have|i have got|i've got|i got|i hold|i'm holding|i am holding|i'll hold|holding|with) (?:out )?"
     f"(?:my|a|an|one) (?:free |open |other |right |left )?{_HAND}"
-    f"(?: (?:out|open|ready|free|up|held out|stretched out|outstretched|here))*(?: {_AT})?{_TAIL}",
-    f"(?:my|our) (?:free |right |left |other )?{_HAND} (?:is|are) (?:right |already |here |wide |held )*"
+    f"(?: (?:out|open|ready|free|up|held out|stretched out|outstretched|here)){{0,3}}(?: {_AT})?{_TAIL}",
+    f"(?:my|our) (?:free |right |left |other )?{_HAND} (?:is|are) (?:right |already |here |wide |held ){{0,3}}"
     f"(?:out|open|ready|here|waiting|free|empty|held out|stretched out|outstretched|there)(?: {_AT})?{_TAIL}",
     "(?:you|you'll|you will|you can) (?:find|see|spot) me (?:right |over )?(?:here|there)?(?: ?" + _AT + ")?",
 )

@@ -31,7 +31,8 @@ SHORTEST_SWAPPED = 3
 
 def slips(word: str, meant: str) -> bool:
     """Whether a word is another one with two letters swapped, one left out, or some struck twice."""
-    return word != meant and (_swapped(word, meant) or _left_out(word, meant) or _stretched(word, meant))
+    begins = meant[:1] in word[:2]  # no slip moves the first letter further
+    return begins and word != meant and (_swapped(word, meant) or _left_out(word, meant) or _stretched(word, meant))
 
 
 def recognised(word: str, known: Iterable[str], shortest: int = SHORTEST) -> str | None:
