@@ -38,7 +38,7 @@ class Asides(Lookahead):
             self._closer, self._around_person, self._spoken_like, self._own_way, self._future, self._hold_on_to,
             self._as_far_as, self._whoever_listens, self._pointed_there,
             self._own_finding, self._is_to, self._quality, self._down_on, self._needed,
-            self._meant_for, self._recipient, self._impersonal,
+            self._meant_for, self._recipient, self._impersonal, self._some_place, self._he_who_carries,
         ):  # fmt: skip
             if (piece := read(at)) is not None:
                 return piece
@@ -215,6 +215,26 @@ class Asides(Lookahead):
         entry = self.lexicon.longest(self.tokens, at)
         unknown = entry is None and self.tokens[at].shape is Shape.WORD and self.tokens[at].norm not in _ASKING
         return unknown or (entry is not None and entry.role is Role.DETERMINER)
+
+    def _some_place(self, at: int) -> Piece | None:
+        """`off the table`, `from the table`: one of the tables, and not which."""
+        start = self._past(at, ("up", "down"))
+        noun = start + 2
+        said = norm_at(self.tokens, start) in ("off", "from") and norm_at(self.tokens, start + 1) == "the"
+        if not said or noun >= len(self.tokens) or self._name(noun) is not None or not self._clause_ends(noun + 1):
+            return None
+        many = [e for found in self.lexicon.names.values() for e in found if self.tokens[noun].norm in e.words]
+        places = {e.values for e in many if e.kind is MentionKind.LOCATION}
+        taken = any(p.kind is MentionKind.OBJECT for p in self.pieces)
+        return Piece(at, noun + 1, Role.FILLER) if taken and len(places) > 1 else None
+
+    def _he_who_carries(self, at: int) -> Piece | None:
+        """`put it on the dog and he takes it to room_b`, where a crew looks for nobody."""
+        verb = self._action(at + 1) if self.tokens[at].norm in ("he", "she") and not self.lexicon.reports else None
+        joined = bool(self.pieces) and self.pieces[-1].role in (Role.AND, Role.THEN, Role.PUNCTUATION)
+        robots = {p.values for p in self.pieces if p.is_robot}
+        known = verb is not None and verb.form is not Form.PAST and joined and len(robots) == 1
+        return Piece(at, at + 1, Role.FILLER) if known else None
 
     def _named_yet(self) -> bool:
         return any(p.is_entity or p.is_action for p in self.pieces)

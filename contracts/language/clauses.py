@@ -6,7 +6,7 @@ unread piece, which is asked back. What names anything of the crew, a figure, a 
 
 from collections.abc import Iterator
 from functools import cache
-from itertools import pairwise
+from itertools import islice, pairwise
 from typing import NamedTuple
 
 from crew.contracts.language.beside import beside
@@ -58,6 +58,10 @@ _AUXILIARY = frozenset(
 )
 _WISHED = frozenset(("want", "need", "have", "get", "would", "could", "should", "might"))
 _SHOWN = dict.fromkeys(ROBOT_KINDS, "@robot") | {MentionKind.LOCATION: "@place"}
+_ASKS = frozenset((
+    "i", "we", "i'd", "we'd", "i'll", "we'll", "could", "can", "would", "will", "please", "let", "have",
+))  # fmt: skip
+"""What opens a request behind what it is for."""
 _LONGEST_SUBJECT = 4
 _LONGEST_CLAUSE = 24
 
@@ -131,7 +135,10 @@ def _parts(tokens: list[Token], begin: int, end: int) -> Iterator[Clause]:
 
 def _parts_of(tokens: list[Token], whole: Clause) -> Iterator[Clause]:
     """What joining words part a clause into; nothing where there are none."""
-    cuts = (k for k in range(whole.start + 1, whole.after) if _joins(tokens, k))
+    cuts = [k for k in range(whole.start + 1, whole.after) if _joins(tokens, k)]
+    if tokens[whole.start].norm == "for":  # "for the demo I need ..."
+        asks = (k for k in range(whole.start + 2, min(whole.start + 7, whole.after)) if tokens[k].norm in _ASKS)
+        cuts = sorted({*cuts, *islice(asks, 1)})
     for start, after in pairwise((whole.start, *cuts, whole.after)):
         if (start, after) != (whole.start, whole.after):
             closed_by = whole.closed_by if after == whole.after else ""
@@ -161,7 +168,9 @@ def _harmless(tokens: list[Token], clause: Clause, lexicon: Lexicon, kept: dict[
     whole = range(clause.start, clause.after)
     if fits(HARMLESS, said) and not _names(tokens, clause, lexicon, but=MentionKind.VALUE):
         return whole
-    purpose = clause.whole and fits(PURPOSES, said_between(tokens, clause.start, clause.after))
+    purpose = (clause.whole or tokens[clause.start].norm == "for") and fits(
+        PURPOSES, said_between(tokens, clause.start, clause.after)
+    )
     if purpose and not _names(tokens, clause, lexicon):
         return whole
     if clause.whole and fits(OWN_CHOICE, said):
@@ -200,7 +209,8 @@ def _brought(tokens: list[Token], clause: Clause, lexicon: Lexicon) -> bool:
     """Whether something is asked for by whoever speaks: `bring me the bottle`, `I need the cube`."""
     norms = [t.norm for k, t in enumerate(tokens) if k not in range(clause.start, clause.after)]
     wished = any(who in ("i", "we") and verb in _WISHED for who, verb in pairwise(norms))
-    return bool(lexicon.to_requester) and (wished or bool({"me", "us", "my", "i'd", "here"} & set(norms)))
+    named = any(e.name == REQUESTER for n in norms for e in lexicon.names.get(n, ()))
+    return bool(lexicon.to_requester) and (named or wished or bool({"me", "us", "my", "i'd", "here"} & set(norms)))
 
 
 def _told_behind(tokens: list[Token], clause: Clause, lexicon: Lexicon) -> range | None:
@@ -227,7 +237,11 @@ def _in_kinds(tokens: list[Token], clause: Clause, lexicon: Lexicon) -> str:
     said, at = [], clause.first
     while at < clause.after:
         names = (e for e in lexicon.names.get(tokens[at].norm, ()) if stands(tokens, at, e.words))
-        kinds = ((e, _SHOWN.get(e.kind)) for e in names if at + len(e.words) <= clause.after)
+        kinds = (
+            (e, "@me" if e.name == REQUESTER else _SHOWN.get(e.kind))
+            for e in names
+            if at + len(e.words) <= clause.after
+        )
         name, shown = next(((e, kind) for e, kind in kinds if kind), (None, tokens[at].norm))
         said.append(str(shown))
         at += 1 if name is None else len(name.words)

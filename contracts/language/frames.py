@@ -39,6 +39,7 @@ FRAMES: tuple[str, ...] = (
     "(do|would) you mind",
     "(|i |we |you )(want|wanna) to",
     "pretty please",
+    "if (it's|it is) (no|not a|no great|no big) (trouble|bother|problem|hassle|bother at all|trouble at all)",
     "(let's try|let us try)",
     "be able to",
     "(you know what|i tell you what|tell you what|the thing is|long story short|to be honest|if i may)",
@@ -78,6 +79,8 @@ OPENINGS: tuple[str, ...] = (
     "(you there|hey you|you guys|you're up|you are up|over to you|your move|it's your turn)",
     "(caller|dispatch|police|witness|witnesses|command) (reports|reporting)",
     "(all stations|all callsigns|all call signs|say again|i say again|i repeat|be advised|for your action)",
+    "(son|lad|laddie|lassie|dearie|my boy|my girl|my lad|my son|young lady|young fellow|young woman|good fellow|"
+    "old chap|old boy|kiddo|sweetheart|petal|pet|good man|my good man|my good fellow|ladies|lads|boys|chaps)",
     "(mr|mister|miss|mrs|sir|madam|ma'am|dude|bro|boss|chief|pal|love|honey|sweetie|darling|my dear|young man|team|"
     "gentlemen|ladies and gentlemen)",
 )
@@ -121,8 +124,12 @@ WHEREABOUTS: tuple[str, ...] = (
 )
 """Said behind that person."""
 
-BEFORE_A_MARK = frozenset(("copy", "say", "break", "roger", "affirm"))
-"""Openings that are verbs without a mark behind them."""
+BEFORE_A_MARK = frozenset((
+    "son", "lad", "laddie", "my boy", "my girl", "my lad", "my son", "young lady", "young woman", "lads", "boys",
+    "chaps",
+    "ladies", "good man", "young fellow", "copy", "say", "break", "roger", "affirm",
+))  # fmt: skip
+"""Openings that are verbs or names without a mark behind them."""
 AFTER_A_MARK = frozenset(
     ("over", "out", "right", "clear", "roger", "yes", "eh", "huh", "man", "chief", "pal", "love", "mate")
 )

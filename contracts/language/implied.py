@@ -196,7 +196,9 @@ def _alone(pieces: list[Piece], at: int) -> bool:
 
     The robot that does it may follow: `cube to room_b, by dog`.
     """
-    named = [p for k, p in enumerate(pieces) if p.is_entity and not _does_it(pieces, at, k)]
+    doers = (k for k in range(len(pieces)) if _does_it(pieces, at, k) or _is_called(pieces, k))
+    helper = next((pieces[k] for k in doers if any(p.kind is MentionKind.OBJECT for p in pieces)), None)
+    named = [p for p in pieces if p.is_entity and p is not helper]
     odd = (Role.UNREAD, Role.WORD, Role.NOT, Role.NO, Role.EXCEPT, Role.AVOID, Role.AND, Role.BE, Role.PRONOUN)
     return len(named) == 2 and not any(p.role in odd for p in pieces)
 
@@ -207,6 +209,12 @@ def _does_it(pieces: list[Piece], link: int, at: int) -> bool:
     taken = owner is not None and owner.kind is MentionKind.OBJECT and at > link and pieces[at].is_robot
     by = before(pieces, at, SOFT - {Role.FILLER}) if taken else None
     return by is not None and (by.role is Role.WITH or by.norm in ("on", "onto"))
+
+
+def _is_called(pieces: list[Piece], at: int) -> bool:
+    """`humanoid, bottle onto table_b`: who is to do it."""
+    opens = before(pieces, at, SOFT | {Role.PUNCTUATION}) is None
+    return pieces[at].is_robot and opens and at + 1 < len(pieces) and pieces[at + 1].norm in _SURE_MARKS
 
 
 def _first_of_name(pieces: list[Piece], at: int) -> int:

@@ -1,5 +1,6 @@
 """Slips of the keyboard, set right before a request is read; what may matter among them is asked back."""
 
+import re
 from typing import NamedTuple
 
 from crew.contracts.language.lexicon import Lexicon
@@ -16,6 +17,7 @@ from crew.contracts.language.spelling import (
 )
 from crew.contracts.language.tokens import Shape, Token
 
+_STRETCHED = re.compile(r"([a-z])\1{2,}")
 SHORTEST_SILENT = 3
 """Letters of the shortest function word that is recognised."""
 
@@ -33,7 +35,7 @@ def respell(text: str, tokens: list[Token], lexicon: Lexicon) -> Respelled:
     """Recognise slips; a possible slip of a negation or a condition makes the request ambiguous."""
     words = lexicon.vocabulary
     out = Respelled([], [], [], [])
-    for token in tokens:
+    for token in (_unstretched(t, words) for t in tokens):
         if token.shape is not Shape.WORD or token.possessive or token.norm in words.known:
             out.tokens.append(token)
             continue
@@ -49,6 +51,12 @@ def respell(text: str, tokens: list[Token], lexicon: Lexicon) -> Respelled:
             (out.sure if _sure(text, token, meant, words) else out.asked).append(shown)
         out.tokens.append(token if meant is None else token._replace(norm=meant))
     return out
+
+
+def _unstretched(token: Token, words: Vocabulary) -> Token:
+    """`soooo` is `so`."""
+    plain = _STRETCHED.sub(r"\1", token.norm)
+    return token._replace(norm=plain) if plain != token.norm and plain in words.known else token
 
 
 def _sure(text: str, token: Token, meant: str, words: Vocabulary) -> bool:

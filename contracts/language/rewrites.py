@@ -26,6 +26,21 @@ REWRITES: tuple[tuple[str, str], ...] = (
     ("see if you (can|could)", "please"),
     ("(can|could|would|will) (u|ya)", "can you"),
     ("ever so", "so"),
+    *(
+        (f"(i'm|i am|we're|we are) afraid (|that ){who}", who)
+        for who in ("i", "i'm", "i am", "we", "we're", "my", "i've")
+    ),
+    ("(i'll|i will|we'll|we will|i shall) (need|want|require)", "i need"),
+    (
+        "(i'd|i would|we'd|we would) be (|so |very |most |really )(grateful|glad|happy|pleased|thankful) to see",
+        "i want",
+    ),
+    (
+        "(that's|that is|is|it's|this is) where (i|we|i'd|we'd) (want|need|would like|should like|like|would want)",
+        "i want",
+    ),
+    ("(could|can|may|might) (i|we) (trouble|bother|ask|beg) (the|that|your)", "tell the"),
+    ("(let's have|let us have) you", "please"),
     ("(flight|flying|search|cruise|cruising|operating|working) (altitude|height|level)", "altitude"),
     (
         "what (i'd like|i would like|we'd like|we would like|we need|we want|i'd love|i'm after|we're after|i'm asking|"
@@ -120,6 +135,8 @@ REWRITES: tuple[tuple[str, str], ...] = (
 """What is said, and what it is read as."""
 
 BEFORE_A_PLACE: tuple[tuple[str, str], ...] = (
+    ("(you're|you are) (going|headed|heading|off|bound|to go) (to|for)", "go to"),
+    ("(standing|waiting|parked|positioned|stationed|sitting|ready|placed|stood) (at|in|by|on)", "at"),
     ("(down|up|back down|back up|home|back home|on home|off|on down) to", "to"),
     ("(over|across|round|out|down|back) (in|at)", "in"),
     ("back", "to"),

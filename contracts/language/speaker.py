@@ -31,24 +31,27 @@ _LOOSE = (
     "right|just|still|already|now|currently|over|back|up|down|out|all|away|far|far away|close|close by|near|nearby|"
     "alone|and|comfortably|quite|very|only|way|through|waiting|sitting|standing|seated|lying|resting|working|stuck|stood|sat|"
     "sitting down|standing up|lying down|reading|too far|too far away|a bit|a little|rather|so|really|thirsty|parched|"
-    "hungry|tired|cold|stuck|busy|exhausted|comfortable|cosy|not well|unwell|ill|poorly"
+    "beside|alongside|tied up|caught up|held up|engaged|occupied|(?:tied up|busy|stuck|caught up|engaged) with "
+    f"{_THING}|hungry|tired|cold|stuck|busy|exhausted|comfortable|cosy|not well|unwell|ill|poorly"
 )
 _HERE = (
     "here|over here|right here|there|over there|upstairs|downstairs|next door|elsewhere|outside|in bed|at home|"
     "at work|indoors|right next door|in reach|within reach|in arm's reach|within arm's reach|not far|a few steps away|"
-    "at the back|in the back|at the front|sitting|standing|seated|waiting|lying down|sitting down|ready|"
+    "beside|just beside|alongside|nearby|close by|at the back|in the back|at the front|sitting|standing|seated|waiting|"
+    "lying down|sitting down|ready|"
     "ready to take it|ready for it|in position|in place"
 )
 _AT = (
     f"(?:{_BY} (?:you|(?:(?:the|a|your|that|this|our) (?:[a-z]+ )?)?@robot|(?:the |a )?@place|{_THING}|"
     "(?:his|its) side)"
     f"|{_IN}|(?:at|on|in|by) {_SIDE}(?: of (?:the |a |this |that )?(?:@robot|@place|{_NOUN}(?: {_NOUN})?))?"
+    "|(?:down|up|along) (?:the |a )?(?:hall|corridor|hallway|passage|stairs|landing)"
     f"|across (?:from )?{_THING}(?: from (?:you|(?:the )?@robot|(?:the )?@place|{_THING}))?"
     f"|at (?:the |a )?(?:@place|home|work|school|hospital))"
 )
 _AM = (
     "(?:(?:i|we) (?:am|are|was|sit|stand|lie|wait|stay|stand here|remain|work)|i'm|we're|(?:i|we) (?:have|'ve) moved|"
-    "(?:i|we)'ve moved)"
+    "(?:i|we)'ve moved|(?:the )?@me (?:is|sits|stands|waits|has moved))"
 )
 _TAIL = (
     "(?: (?:here|over here|right here|over there|there|only|now|today|at the moment|right now|already|waiting|"
@@ -69,8 +72,8 @@ _CANNOT = (
 _COME = (
     "get up|stand up|stand|get out|get over|get across|get there|get to you|come over|come to you|come|come and get it|"
     "get it myself|get it|reach|reach it|reach that far|walk|walk over|walk that far|walk far|make it|make it over|"
-    "make it across|make it there|move|move about|move around|get down|bend down|leave|leave my desk|leave my chair|"
-    "leave my bed|leave my post|leave here|go|go over|go there|go far|get away|step away|do stairs|do the stairs|"
+    "make it across|make it there|move|move about|move around|get down|bend down|leave|"
+    f"leave here|leave {_THING}|go|go over|go there|go far|get away|step away|do stairs|do the stairs|"
     "get about"
 )
 

@@ -35,7 +35,8 @@ CLASSES: dict[str, str] = {
     "aren't good|isn't great|aren't great|don't work|doesn't work|is going|are going|won't carry me|is playing up|"
     "is not what it was|are not what they were|isn't what it was|aren't what they were|isn't what it used to be|"
     "aren't what they used to be|trembles|tremble|is trembling|are trembling|is cold|are cold|is racing|is pounding",
-    "ailing": "bad|sore|stiff|weak|broken|sprained|dodgy|poor|terrible|shaky|numb|swollen|useless|slow|wobbly|unsteady|"
+    "ailing": "bad|greasy|wet|dirty|sticky|oily|muddy|soapy|filthy|slippery|burnt|bandaged|frozen|sore|stiff|weak|"
+    "broken|sprained|dodgy|poor|terrible|shaky|numb|swollen|useless|slow|wobbly|unsteady|"
     "tired|dry|cold|killing me|failing",
     "cannot": "can't|cannot|can not|can hardly|can barely|don't|do not|couldn't|could not",
     "manage": "see|hear|walk|walk far|move|stand|stand up|get up|bend|bend down|sleep|manage|manage alone|do it myself|"
@@ -152,6 +153,16 @@ HARMLESS: tuple[str, ...] = (
     "(?: (?:here|now|today|for today|for tonight|for now|for the day|lads|folks|everyone|everybody|with it|then|too))*",
     "(?:it's|it is) (?:one|two|three|four|five|six|late|early|midnight|the middle) (?:in the|at|of the) "
     "(?:morning|night|evening)",
+    "<my> legs (?:won't|will not|don't|do not|can't|cannot) (?:carry|take|hold|bear) me(?: (?:so|that|very|too|"
+    "all that|"
+    "as))?(?: far| long)?(?: any more| anymore| these days| now| today){0,2}",
+    "(?:the|my|our|a|his|her) (?:[a-z]+ ){0,2}[a-z]+ (?:is|are|has|have|feels) (?:<very> )*(?:thirsty|hungry|thirst|"
+    "hunger|tired|parched|a fever|a headache|a sore throat)",
+    "(?:its|his|her|your) (?:shift|day|work|job|round|turn|duty|rounds) (?:is|are) (?:over|done|finished|up)"
+    "(?: now| for today)?",
+    "(?:it's|it has|he's|he has|she's|she has) been (?:out|working|busy|running|on the go|at it) (?:<very> )*"
+    "(?:long|long enough|all day|all morning|hard|enough|a while)(?: now| already)?",
+    "that's (?:all|everything|the lot)(?: (?:i|we) (?:need|want|ask|ask for|wanted|needed))?(?: for now| today)?",
     "(?:let's|let me|let us) see|let me think|i've seen (?:quite )?enough|that's (?:enough|all|it)(?: for today| now)?",
     "(?:you|he|she|it|they) (?:must|might|will) be (?:<very> )*<feeling>(?: by now| now| already| too| today)?",
     "(?:it|he|she|you) (?:has|have|'s|'ve) (?:earned|deserved) (?:it|that|this|one|a rest|a break)",
@@ -204,10 +215,11 @@ ABOUT_A_PERSON: tuple[str, ...] = (
 _OCCASION = (
     "film|show|demo|demonstration|test|tests|experiment|report|class|course|lesson|exercise|drill|training|visitors|"
     "guests|audience|cameras|camera|children|kids|students|record|log|logbook|journal|crowd|next part|second part|"
+    "exercises|rehearsal|recording|review|survey|calibration|check|checks|acceptance|assembly|inspection|"
     "first part|next run|next step|next test|shoot|scene|take|broadcast|programme|presentation|tour|party|meeting|paper"
 )
 PURPOSES: tuple[str, ...] = (
-    f"for (?:the |our |my |a |an |this |today's |your |these |those )?(?:[a-z]+ )?(?:{_OCCASION})",
+    f"for (?:the |our |my |a |an |this |today's |your |these |those )?(?:[a-z]+ ){{0,2}}(?:{_OCCASION})",
 )
 """Clauses that say on what occasion something is wanted."""
 

@@ -218,6 +218,9 @@ have the drone fly east
 rover, drone, go to base
 we are done searching, but search the north half
 somebody else needs the drone in the north half
+son, find me a job
+find my son, he goes to base
+for the night, send the rover to base
 """
 
 INDOOR = """
@@ -634,4 +637,12 @@ bottle for him please
 the bottle is for me
 is the bottle for me
 not the bottle for me please
+for the time being, take the bottle to room_a
+for an hour I want the dog at the charger
+put the cube on the dog and he takes the bottle to room_b
+the requester is holding the dog, take the bottle to room_a
+humanoid, dog, bottle to room_a or room_b
+take the cube off the shelf
+the bottle is off the table
+is this where I want the dog parked
 """
