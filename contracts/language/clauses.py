@@ -21,7 +21,7 @@ from crew.contracts.language.courtesies import (
     WANTED_FOR,
 )
 from crew.contracts.language.endings import is_over
-from crew.contracts.language.entry import stands
+from crew.contracts.language.entry import Entry, stands
 from crew.contracts.language.figures import is_numeral
 from crew.contracts.language.frames import FRAMES, OPENINGS, TAGS, phrases
 from crew.contracts.language.inflect import Form
@@ -48,7 +48,7 @@ from crew.contracts.language.stories import (
     SUBJECTS,
 )
 from crew.contracts.language.tokens import Shape, Token
-from crew.contracts.language.words import REQUESTER
+from crew.contracts.language.words import REQUESTER, SELF_WORDS
 
 _BOUNDS = frozenset(".!?;:,-()\u2026")
 _WHY_WORDS = frozenset(("as", "since", "for"))
@@ -232,16 +232,18 @@ def _is_over(tokens: list[Token], at: int, lexicon: Lexicon) -> bool:
     return named or tokens[at - 1].norm in ("me", "us", "please", "here", "it")
 
 
+def _shown(name: Entry) -> str | None:
+    """What stands for a name in a pattern."""
+    spoken_of = name.name == REQUESTER and " ".join(name.words) not in SELF_WORDS
+    return "@me" if spoken_of else _SHOWN.get(name.kind)
+
+
 def _in_kinds(tokens: list[Token], clause: Clause, lexicon: Lexicon) -> str:
     """The words of a clause, with `@robot` and `@place` for the names of the crew."""
     said, at = [], clause.first
     while at < clause.after:
         names = (e for e in lexicon.names.get(tokens[at].norm, ()) if stands(tokens, at, e.words))
-        kinds = (
-            (e, "@me" if e.name == REQUESTER else _SHOWN.get(e.kind))
-            for e in names
-            if at + len(e.words) <= clause.after
-        )
+        kinds = ((e, _shown(e)) for e in names if at + len(e.words) <= clause.after)
         name, shown = next(((e, kind) for e, kind in kinds if kind), (None, tokens[at].norm))
         said.append(str(shown))
         at += 1 if name is None else len(name.words)

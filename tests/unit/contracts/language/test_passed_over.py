@@ -60,6 +60,24 @@ def test_what_is_left_out_is_said(text: str, left_out: list[str], rules: Rules) 
     assert f"left out as no part of the request: '{left_out[0]}'" in explain_reading(reading)
 
 
+@pytest.mark.parametrize(
+    "told",
+    [
+        "I'm right here beside you",
+        "I'm standing right here",
+        "my hand is out",
+        "I am sitting next to the humanoid with my hand open",
+        "the requester is beside the humanoid",
+        "I can't get up from my chair",
+    ],
+)
+def test_where_and_how_the_person_is_says_nothing_where_something_is_brought_to_them(told: str) -> None:
+    rules = load_rules("humanoid_quadruped")
+    state = replace(ON_GROUND, requester_near=True)
+    assert judge(f"hand me the cube, {told}", rules, state).outcome == "accepted"
+    assert judge(f"send the dog to room_a, {told}", rules, state).outcome != "accepted"
+
+
 def test_a_slip_that_is_read_is_said(rules: Rules) -> None:
     reading = read_request("serach the north half", lexicon_of(rules))
     assert reading.unread == ()
