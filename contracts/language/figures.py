@@ -34,6 +34,16 @@ def is_numeral(tokens: list[Token], at: int) -> bool:
     return token.shape is Shape.NUMBER or token.norm in DIGIT_WORDS or token.norm in TENS_WORDS
 
 
+def with_commas(tokens: list[Token]) -> list[Token]:
+    """`three comma six point five`: the mark for the word, between two figures of which the second has no unit."""
+    out: list[Token] = []
+    for at, token in enumerate(tokens):
+        spoken = token.norm == "comma" and at > 0 and is_numeral(tokens, at - 1)
+        second = figure(tokens, at + 1) if spoken else None
+        out.append(token if second is None or second.metres else token._replace(norm=",", shape=Shape.MARK))
+    return out
+
+
 def figure(tokens: list[Token], at: int) -> Figure | None:
     """A signed number with an optional unit of metres."""
     sign, at = _sign(tokens, at)
@@ -77,7 +87,7 @@ def _magnitude(tokens: list[Token], at: int) -> tuple[float, int] | None:
 def _with_decimals(tokens: list[Token], whole: int, at: int) -> tuple[float, int]:
     """`five point two five`."""
     digits = ""
-    if norm_at(tokens, at) == "point":
+    if norm_at(tokens, at) in ("point", "decimal"):
         end = at + 1
         while (digit := DIGIT_WORDS.get(norm_at(tokens, end), 10)) < 10:
             digits, end = digits + str(digit), end + 1

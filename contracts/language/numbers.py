@@ -15,7 +15,8 @@ from crew.contracts.plan import SlotValue, Spot, Zone
 
 _HEIGHT_NOUNS = frozenset(("altitude", "height", "elevation", "alt"))
 _HEIGHT_TAILS = (
-    ("above", "the", "ground"), ("above", "ground"), ("of", "altitude"), ("of", "height"), ("in", "altitude"),
+    ("above", "ground", "level"), ("above", "the", "ground"), ("above", "ground"), ("off", "the", "ground"),
+    ("in", "the", "air"), ("in", "height"), ("overhead",), ("flight", "altitude"), ("flight", "height"), ("of", "altitude"), ("of", "height"), ("in", "altitude"),
     ("high",), ("altitude",), ("height",), ("up",), ("agl",),
 )  # fmt: skip
 _NOT_HEIGHT = frozenset(

@@ -4,8 +4,9 @@ from collections.abc import Mapping, Sequence
 
 from crew.contracts.language.endings import endings
 from crew.contracts.language.entry import Words, stands_all
-from crew.contracts.language.figures import is_numeral
+from crew.contracts.language.figures import is_numeral, with_commas
 from crew.contracts.language.findings import findings
+from crew.contracts.language.heights import heights
 from crew.contracts.language.lexicon import Lexicon
 from crew.contracts.language.lookahead import ARTICLES, named
 from crew.contracts.language.mention import ROBOT_KINDS, MentionKind
@@ -41,10 +42,10 @@ def rewritten(tokens: list[Token], lexicon: Lexicon) -> list[Token]:
     """The tokens of a request in plainer words."""
     out: list[Token] = []
     at = 0
-    tokens = findings(restated(tokens, lexicon), lexicon)
+    tokens = findings(restated(with_commas(tokens), lexicon), lexicon)
     tokens = spoken([t for k, t in enumerate(tokens) if not _hesitation(tokens, k, lexicon)], lexicon)
     tokens = told(replaced(tokens, PLAINER, lexicon), lexicon)
-    tokens = staying(endings(tokens, lexicon), lexicon)
+    tokens = heights(staying(endings(tokens, lexicon), lexicon), lexicon)
     while at < len(tokens):
         words, plain = (
             _arrow(tokens, at)

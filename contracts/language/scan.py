@@ -2,7 +2,7 @@
 
 from crew.contracts.language.asides import Asides
 from crew.contracts.language.entry import Entry, stands_all
-from crew.contracts.language.figures import is_numeral
+from crew.contracts.language.figures import is_numeral, norm_at
 from crew.contracts.language.frames import BEFORE_A_MARK
 from crew.contracts.language.inflect import Form
 from crew.contracts.language.lexicon import Lexicon
@@ -82,7 +82,8 @@ class Scanner(Asides):
         end = at + len(entry.words)
         verb = self._past(end, ("out", "ahead"))
         linked = self._past(verb, _LIGHT_LINKS)
-        if self._action(linked) is not None:
+        place = linked > verb and self.tokens[linked - 1].norm == "to" and norm_at(self.tokens, linked) in PLACE_NOUNS
+        if self._action(linked) is not None and not place:
             return Piece(at, linked, Role.FILLER)
         return Piece(at, end, Role.FILLER) if self._action(self._past(verb, ("a", "an", "the"))) is not None else None
 
