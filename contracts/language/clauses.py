@@ -10,6 +10,7 @@ from itertools import islice, pairwise
 from typing import NamedTuple
 
 from crew.contracts.language.beside import beside
+from crew.contracts.language.calls import call
 from crew.contracts.language.closed_kinds import class_words, fits, said_between
 from crew.contracts.language.courtesies import (
     CALLED_FROM,
@@ -32,7 +33,6 @@ from crew.contracts.language.speaker import OF_THEMSELVES
 from crew.contracts.language.stories import (
     ABOUT_A_PERSON,
     CALLED,
-    CALLS,
     CLASSES,
     FINITE,
     HARMLESS,
@@ -189,8 +189,8 @@ def _harmless(tokens: list[Token], clause: Clause, lexicon: Lexicon, kept: dict[
     if value and fits(ABOUT_A_PERSON, said) and not _names(tokens, clause, lexicon, but=MentionKind.VALUE):
         _keep_person(tokens, clause, value, kept)
         return whole
-    if fits(CALLS, said) and not _names(tokens, clause, lexicon):
-        return whole
+    if (spoken := _call(tokens, clause, lexicon)) is not None:
+        return spoken
     if clause.closed_by == ":" and (dropped := _heading(tokens, clause, lexicon)) is not None:
         return dropped
     if clause.whole and (told := _told_behind(tokens, clause, lexicon)) is not None:
@@ -248,6 +248,10 @@ def _in_kinds(tokens: list[Token], clause: Clause, lexicon: Lexicon) -> str:
         said.append(str(shown))
         at += 1 if name is None else len(name.words)
     return " ".join(said)
+
+
+def _call(tokens: list[Token], clause: Clause, lexicon: Lexicon) -> range | None:
+    return call(tokens, clause.first, clause.after, clause.closed_by, lexicon) if clause.whole else None
 
 
 def _heading(tokens: list[Token], clause: Clause, lexicon: Lexicon) -> range | None:

@@ -6,6 +6,7 @@ from crew.contracts.language.tokens import Shape, Token
 from crew.contracts.language.words import DIGIT_WORDS, METRES, OTHER_UNITS, TENS_WORDS
 
 _SIGNS = {"minus": -1.0, "negative": -1.0, "plus": 1.0}
+_PARTED = frozenset(("point", "decimal", "minus", "negative", "plus"))
 _TAINTED = frozenset(("%", "/", "*", "^", "$", "#", "'"))
 
 
@@ -35,12 +36,17 @@ def is_numeral(tokens: list[Token], at: int) -> bool:
 
 
 def with_commas(tokens: list[Token]) -> list[Token]:
-    """`three comma six point five`: the mark for the word, between two figures of which the second has no unit."""
+    """`three comma six point five`: the mark for the word, where it can be no decimal comma.
+
+    That is where what follows has a sign or a decimal point of its own, or what precedes it has one.
+    """
     out: list[Token] = []
     for at, token in enumerate(tokens):
         spoken = token.norm == "comma" and at > 0 and is_numeral(tokens, at - 1)
         second = figure(tokens, at + 1) if spoken else None
-        out.append(token if second is None or second.metres else token._replace(norm=",", shape=Shape.MARK))
+        ahead = {"point", "decimal"} & {t.norm for t in tokens[max(0, at - 4) : at]}
+        parted = second is not None and (ahead or _PARTED & {t.norm for t in tokens[at + 1 : second.after]})
+        out.append(token._replace(norm=",", shape=Shape.MARK) if second and parted and not second.metres else token)
     return out
 
 

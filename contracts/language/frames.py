@@ -96,6 +96,9 @@ TAGS: tuple[str, ...] = (
     "(thanks so much|thank you so much|much obliged|much appreciated|thanking you|thank you kindly)",
     "(over|out|over and out|how copy|do you copy|acknowledge|acknowledged|roger|wilco|stand by|standing by)",
     "and stand by",
+    "(|please )(read back|confirm|acknowledge|read it back|confirm receipt|confirm please|acknowledge please)",
+    "(|control |ops |command |dispatch )(out|over and out|clear and out)",
+    "(end of message|message ends|end message|end of order|that's your task|that is your task)",
     "(urgent|urgently|this is urgent|it's urgent|high priority|top priority|standby|please respond|do you read|"
     "come in)",
     "(sir|madam|ma'am|dude|bro|boss|chief|pal|love|honey|sweetie|darling|my dear|mate|buddy|man|guys|folks|my friend)",

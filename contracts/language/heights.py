@@ -4,42 +4,35 @@ Put into words that the figures' reader has: `at 4 metres`. Before the search, f
 Nothing is said of how it is flown: a height is read only where its figure has a unit or a noun (`altitude`).
 """
 
+import re
+
 from crew.contracts.language.entry import Words, stands_all
 from crew.contracts.language.figures import Figure, figure, norm_at
 from crew.contracts.language.inflect import Form
 from crew.contracts.language.lexicon import Lexicon
 from crew.contracts.language.mention import MentionKind
-from crew.contracts.language.templates import expansions
 from crew.contracts.language.tokens import Shape, Token
 
 _NOUNS = frozenset(("altitude", "height", "elevation", "alt"))
 _OF_FLIGHT = frozenset((
-    "flight", "flying", "search", "searching", "cruise", "cruising", "operating", "constant", "steady", "working", "scan",
-    "sweep", "hover", "fixed", "safe",
+    "flight", "flying", "search", "searching", "cruise", "cruising", "operating", "constant", "steady", "working",
+    "scan", "sweep", "hover", "fixed", "safe",
 ))  # fmt: skip
 _STAYS = (
-    "(fly|flying|flies|hover|hovering|hovers|cruise|cruising|cruises|stay|staying|stays|keep|keeping|keeps|remain|"
+    "(?:fly|flying|flies|hover|hovering|hovers|cruise|cruising|cruises|stay|staying|stays|keep|keeping|keeps|remain|"
     "remaining|operate|operating|loiter|loitering|go|going|climb|climbing|rise|rising|ascend|ascending|get|level off)"
 )
-_LEADS: tuple[Words, ...] = tuple(
-    sorted(
-        (
-            tuple(said.split())
-            for template in (
-                f"(|while |whilst |and |by |and then ){_STAYS} (|up |it |itself |out |it up |along |low )(at|on|in|"
-                "to|from|with)",
-                "(|and |while )(maintain|maintaining|maintains|hold|holding|holds|keep|keeping|use|using|set|setting|"
-                "take)",
-                "(with |)(altitude|height) (set |is |to be |should be |will be |)(to|at|is)",
-                "set (altitude|height|the altitude|the height|your altitude|your height) (to|at)",
-                "at (|a |an )(altitude|height) (at|on|in)",
-            )
-            for said in expansions(template)
-        ),
-        key=len,
-        reverse=True,
-    )
+_LEADS = (
+    f"(?:(?:while|whilst|and|by|and then) )?{_STAYS}(?: (?:up|it|itself|out|it up|along|low))? (?:at|on|in|to|from|"
+    "with)|"
+    "(?:(?:and|while) )?(?:maintain|maintaining|maintains|hold|holding|holds|keep|keeping|use|using|set|setting|take)|"
+    "(?:with )?(?:altitude|height) (?:set |is |to be |should be |will be )?(?:to|at|is)|"
+    "set (?:altitude|height|the altitude|the height|your altitude|your height) (?:to|at)|"
+    "at (?:a |an )?(?:altitude|height) (?:at|on|in)"
 )
+_LONGEST_LEAD = 6
+_PATTERN = re.compile(_LEADS)
+_BEGINS = frozenset(re.findall("[a-z]+", _LEADS))
 _RISES = frozenset(("fly", "flies", "go", "climb", "rise", "ascend", "get", "hover", "stay", "going", "flying"))
 _THEN_ONLY = frozenset(("when", "once", "if", "until", "till", "after", "before", "unless", "as", "where", "whenever"))
 """What would make a height one for another moment."""
@@ -62,8 +55,8 @@ def heights(tokens: list[Token], lexicon: Lexicon) -> list[Token]:
 
 def _flown(tokens: list[Token], at: int, sweeps: list[int], lexicon: Lexicon) -> tuple[int, list[Token]] | None:
     """`flying at 4 metres`, `maintain an altitude of 4 metres`."""
-    lead = next((words for words in _LEADS if stands_all(tokens, at, words)), None)
-    if lead is None:
+    lead = _lead(tokens, at)
+    if not lead:
         return None
     begin = at + len(lead)
     first, value = _height(tokens, begin, noun=lead[-1] not in ("at", "on", "in", "to", "from", "with", "is"))
@@ -76,6 +69,15 @@ def _flown(tokens: list[Token], at: int, sweeps: list[int], lexicon: Lexicon) ->
         joined = tokens[at : at + verb]
         return begin, [*joined, _word("launch", tokens[at + verb]), _word("to", tokens[begin - 1])]
     return first, [_word("at", tokens[at])]
+
+
+def _lead(tokens: list[Token], at: int) -> Words:
+    """The longest wording in front of a height that stands here."""
+    if tokens[at].norm not in _BEGINS:
+        return ()
+    said = [t.norm for t in tokens[at : at + _LONGEST_LEAD]]
+    ends = range(len(said), 0, -1)
+    return next((tuple(said[:end]) for end in ends if _PATTERN.fullmatch(" ".join(said[:end]))), ())
 
 
 def _height(tokens: list[Token], at: int, *, noun: bool) -> tuple[int, Figure | None]:

@@ -16,7 +16,8 @@ from crew.contracts.plan import SlotValue, Spot, Zone
 _HEIGHT_NOUNS = frozenset(("altitude", "height", "elevation", "alt"))
 _HEIGHT_TAILS = (
     ("above", "ground", "level"), ("above", "the", "ground"), ("above", "ground"), ("off", "the", "ground"),
-    ("in", "the", "air"), ("in", "height"), ("overhead",), ("flight", "altitude"), ("flight", "height"), ("of", "altitude"), ("of", "height"), ("in", "altitude"),
+    ("in", "the", "air"), ("in", "height"), ("overhead",), ("flight", "altitude"), ("flight", "height"),
+    ("of", "altitude"), ("of", "height"), ("in", "altitude"),
     ("high",), ("altitude",), ("height",), ("up",), ("agl",),
 )  # fmt: skip
 _NOT_HEIGHT = frozenset(

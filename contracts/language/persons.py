@@ -110,3 +110,14 @@ def names_of_people() -> Iterator[str]:
     yield from (f"{said} {noun}" for noun, many in COMPOUNDS.items() for said in many)
     yield from DEAR
     yield from (f"{said} {noun}" for noun in HELPERS for said in LOST)
+
+
+NO_SLIPS: frozenset[str] = frozenset(
+    _listed(
+        "ops rescue office lodge range ride mine race care manage observe forage retire commute gust plot dive "
+        "finish quit "
+        "scrub terminate plug camp party surf golf score board trail train plan pilot resident reside wander "
+        "stroll travel tour visit hunt farm build research photograph engine mechanism tend tenet inmate lass"
+    )
+)
+"""Words that would be slips of these names, were they not words."""

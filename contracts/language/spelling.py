@@ -37,7 +37,10 @@ def slips(word: str, meant: str) -> bool:
 
 def recognised(word: str, known: Iterable[str], shortest: int = SHORTEST) -> str | None:
     """The one known word that was meant; None if there is none, or more than one."""
-    found = {other for other in known if len(other) >= shortest and slips(word, other)} if len(word) > 2 else set()
+    if len(word) < 3:
+        return None
+    likely = (other for other in known if len(other) >= shortest and other[0] in word[:2])
+    found = {other for other in likely if slips(word, other)}
     return found.pop() if len(found) == 1 else None
 
 

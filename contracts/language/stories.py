@@ -7,7 +7,7 @@ quantity, a permission, a warning or a condition: whoever adds a word here asks 
 import re
 
 from crew.contracts.language.courtesies import COURTEOUS_CLASSES
-from crew.contracts.language.persons import CIVIL, COMPOUNDS, FAMILY, HELPERS, REPORTED, YEARS_OLD
+from crew.contracts.language.persons import CIVIL, COMPOUNDS, FAMILY, HELPERS, NO_SLIPS, REPORTED, YEARS_OLD
 
 CLASSES: dict[str, str] = {
     "i": "i|we",
@@ -100,8 +100,6 @@ CLASSES: dict[str, str] = {
     "minutes)(?: now| already)?",
     "lost": "lost|have lost|have just lost|just lost|are looking for|miss|can't find|cannot find|have not found|"
     "haven't found|have been looking for",
-    "caller": "control|command|ops|operations|operator|headquarters|hq|central|mission control|ground control|"
-    "incident command|the control room|control room",
     "sorry": "sorry|so sorry|i'm sorry|i am sorry|i'm so sorry|terribly sorry|i hate|i don't like|i do not like|"
     "i don't mean|"
     "i don't want|i do not want|forgive me|pardon me|apologies|my apologies",
@@ -223,20 +221,10 @@ PURPOSES: tuple[str, ...] = (
 )
 """Clauses that say on what occasion something is wanted."""
 
-CALLS: tuple[str, ...] = (
-    "this is (?:the )?<caller>(?: speaking| calling)?",
-    "<caller>(?: speaking| calling| here)?",
-    "from <caller>",
-)
-"""Who speaks, in a clause of its own."""
 OUT_OF_REACH: tuple[str, ...] = ("<i> <cannot> (?:quite )?(?:reach|get to|get at|lift|carry|hold|fetch|find)",)
 """What the person cannot do with the thing that is then asked for."""
-CALLED: tuple[str, ...] = (
-    "<caller> (?:to|for|calling)",
-    "this is <caller> (?:to|for|calling)",
-    "assign|assigning|task|tasking|detail|detailing|calling|attention|attn|come in",
-)
-"""Who speaks, in front of the robot that is called."""
+CALLED: tuple[str, ...] = ("assign|assigning|task|tasking|detail|detailing|calling|attention|attn|come in",)
+"""What stands in front of the robot that is called."""
 
 _LABEL = "task|order|job|incident|situation|mission|request|assignment|tasking|instruction|instructions|message|"
 "work order|priority|"
@@ -302,4 +290,4 @@ FINITE: frozenset[str] = frozenset((
 
 def told_words() -> frozenset[str]:
     """Every word of the closed kinds: none of them is a slip."""
-    return frozenset(w for said in CLASSES.values() for w in re.findall(r"[a-z']+", said))
+    return NO_SLIPS | frozenset(w for said in CLASSES.values() for w in re.findall(r"[a-z']+", said))

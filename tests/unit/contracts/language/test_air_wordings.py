@@ -106,6 +106,49 @@ let's stop here
 """,
     "send the rover to base": "the rover must drive to base now, we are finish for today",
 }
+HEIGHTS = {
+    "search the north half at 4 metres": """
+search the north half, flying at 4 metres
+search the north half, high four meter
+make the drone fly on four meters and search the north half
+search the north half, altitude four metres
+search the north half from 4 metres above ground level
+search the north half and maintain an altitude of 4 metres
+search the north half while flying at 4 m
+search the north half, flight level 4 metres
+climb to 4 m and search the north half
+set altitude to 4 metres and search the north half
+search the north half hovering at four metres
+search the north half @ 4 m
+go up to four meters, then search the north half
+""",
+    "send the rover to 3, -4": """
+send the rover to three comma minus four
+can we, can we send the rover over to, uh, three comma minus four
+rover, this is control, proceed to position x three, y minus four
+""",
+    "send the rover to 3, 6.5": "take the rover to uh three comma six point five",
+}
+CALLS = {
+    "search the north half with the drone": """
+control to crew, search the north half with the drone
+Control to air team, commence search of north half with the drone.
+Iris, iris, this is beach control. Search the north half.
+Iris, this is mountain rescue, search the north half, over
+beach control to iris, search the north half
+Control to all units, drone to search the north half, over
+Iris, this is Delta Two Four, search the north half, how copy
+drone team: search the north half with the drone
+message for iris: search the north half
+iris, reception here, search the north half
+Iris, how do you read? Search the north half, please acknowledge.
+""",
+    "send the rover to base": """
+tb3 from control, return to base
+tb3, this is site office, return to base, out
+base to rover, return to base
+""",
+}
 NOT_CARRIED_OUT = """
 search the north half and tell the hiker
 search the north half and tell my brother
@@ -200,6 +243,30 @@ drone down south
 drone up north
 drone up
 ground floor
+search the north half, flying 6 metres away from the hiker
+search the north half, flying at 6 metres per second
+search the north half staying 6 metres from the hiker
+search the north half, keep 6 metres away
+search the north half, high 6 feet
+search the high 6 meter wall
+search the north half, flying at 6 metres or 7 metres
+search the north half flying below 6 metres
+search the north half, flying at least at 6 metres
+search the north half, hover at 6 metres when found
+rover go to 6 metres, drone search the north half
+send the rover to three comma four
+send the rover to three comma
+send the rover to position three comma four comma minus five
+this is a test, search the north half
+this is only a drill, search the north half
+this is not control, search the north half
+Control to police, search the north half
+Iris to control, north half searched
+Iris to base, north half is clear
+Control, this is iris, search of the north half complete
+control to crew, do not search the north half
+crew of the boat, search the north half
+send the rover to the crew
 """
 
 
@@ -231,6 +298,14 @@ def test_a_robot_that_stays_is_left_out_or_stopped(rules: Rules) -> None:
 
 def test_everything_ends_by_any_word(rules: Rules) -> None:
     assert as_plain(ENDING, rules) == []
+
+
+def test_a_height_and_a_point_are_read_as_they_are_spoken(rules: Rules) -> None:
+    assert as_plain(HEIGHTS, rules) == []
+
+
+def test_who_calls_whom_is_no_part_of_the_request(rules: Rules) -> None:
+    assert as_plain(CALLS, rules) == []
 
 
 def test_what_only_looks_like_it_is_not_carried_out(rules: Rules) -> None:
