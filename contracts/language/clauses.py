@@ -165,6 +165,8 @@ def _harmless(tokens: list[Token], clause: Clause, lexicon: Lexicon, kept: dict[
     said = said_between(tokens, clause.first, clause.after)
     if not said:
         return None
+    if clause.whole and said in _framing():
+        return None
     whole = range(clause.start, clause.after)
     if fits(HARMLESS, said) and not _names(tokens, clause, lexicon, but=MentionKind.VALUE):
         return whole

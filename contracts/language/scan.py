@@ -223,7 +223,7 @@ class Scanner(Asides):
         named = previous in _NAME_FOLLOWS
         if entry.kind is MentionKind.ACTION:
             return self._namesake(entry, at, MentionKind.ACTION) if named else entry
-        if not named and len(entry.words) > 1:
+        if not named and len(entry.words) > 1 and entry.kind not in ROBOT_KINDS:
             return self._action(at, len(entry.words) - 1) or entry  # "search area" at the start of a clause
         return entry if named else self._namesake(entry, at, None)
 

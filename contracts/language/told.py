@@ -27,7 +27,7 @@ def told(tokens: list[Token], lexicon: Lexicon) -> list[Token]:
     out: list[Token] = []
     at = 0
     while at < len(tokens):
-        rules = (rule(tokens, at, lexicon) for rule in (_raised, _lowered, _bare, _tasked, _assigned))
+        rules = (rule(tokens, at, lexicon) for rule in (_raised, _flown, _lowered, _bare, _tasked, _assigned))
         words, plain = next((found for found in rules if found is not None), (1, tokens[at : at + 1]))
         out.extend(plain)
         at += words
@@ -56,6 +56,19 @@ def _over_zone(tokens: list[Token], at: int, lexicon: Lexicon) -> bool:
     name, end = named(tokens, at + 1, lexicon)
     zone = name is not None and name.kind is MentionKind.ZONE
     return zone and stands_all(tokens, at, ("to",)) and stands_all(tokens, end, ("and",))
+
+
+def _flown(tokens: list[Token], at: int, lexicon: Lexicon) -> Rule | None:
+    """`put the drone over the north half`: to fly over it."""
+    raises = tokens[at].norm in RAISING or tokens[at].norm in ("run", "have", "launch", "dispatch", "move", "direct")
+    if not raises or (end := _robot(tokens, at + 1, lexicon, _LAUNCH)) is None:
+        return None
+    over = end + any(stands_all(tokens, end, (word,)) for word in ("out", "up"))
+    name, _ = named(tokens, over + 1, lexicon)
+    above = any(stands_all(tokens, over, (word,)) for word in ("over", "across", "above"))
+    if not above or name is None or name.kind is not MentionKind.ZONE:
+        return None
+    return over + 1 - at, [_said(tokens[at], "fly"), *tokens[at + 1 : end], _said(tokens[over], "over")]
 
 
 def _lowered(tokens: list[Token], at: int, lexicon: Lexicon) -> Rule | None:

@@ -232,8 +232,15 @@ NICKNAMES: dict[str, tuple[str, ...]] = {
         "smaller robot", "walking robot", "four legged helper",
     ),
     "robot": ("bot", "droid"),
-    "drone": ("uav", "helicopter", "chopper", "quadrocopter", "multicopter", "aircraft", "flyer", "aerial vehicle"),
-    "rover": ("buggy", "ground vehicle", "ground unit", "wheeled robot"),
+    "drone": (
+        "uav", "helicopter", "chopper", "quadrocopter", "multicopter", "aircraft", "flyer", "aerial vehicle",
+        "flying machine", "flying robot", "flying thing", "flying camera", "flying one",
+    ),
+    "rover": (
+        "buggy", "ground vehicle", "ground unit", "wheeled robot", "ground robot", "rover car", "rover robot",
+        "rover vehicle", "wheeled one", "one on wheels", "wheeled vehicle", "wheeled machine", "driving robot",
+        "driving one", "robot car",
+    ),
     "humanoid": (
         "android", "two legged robot", "two legged one", "robot with two legs", "one with two legs", "big robot",
         "bigger robot", "tall robot", "taller robot", "large robot", "robot with arms", "one with arms",
