@@ -24,7 +24,7 @@ from crew.contracts.language.courtesies import (
 from crew.contracts.language.endings import is_over
 from crew.contracts.language.entry import Entry, stands
 from crew.contracts.language.figures import is_numeral
-from crew.contracts.language.frames import FRAMES, OPENINGS, TAGS, phrases
+from crew.contracts.language.frames import framing
 from crew.contracts.language.inflect import Form
 from crew.contracts.language.lexicon import Lexicon, match
 from crew.contracts.language.lookahead import ARTICLES
@@ -165,7 +165,7 @@ def _harmless(tokens: list[Token], clause: Clause, lexicon: Lexicon, kept: dict[
     said = said_between(tokens, clause.first, clause.after)
     if not said:
         return None
-    if clause.whole and said in _framing():
+    if clause.whole and said in framing():
         return None
     whole = range(clause.start, clause.after)
     if fits(HARMLESS, said) and not _names(tokens, clause, lexicon, but=MentionKind.VALUE):
@@ -319,7 +319,7 @@ def _tells(tokens: list[Token], clause: Clause, lexicon: Lexicon) -> bool:
         return False
     if any(t.shape is not Shape.WORD for t in tokens[clause.first : clause.after]):
         return False
-    if " ".join(norms) in _framing():
+    if " ".join(norms) in framing():
         return False
     turning = lexicon.vocabulary.turning
     if any(n in turning or n.endswith("n't") for n in norms) or _names(tokens, clause, lexicon):
@@ -364,12 +364,6 @@ def _names(tokens: list[Token], clause: Clause, lexicon: Lexicon, but: MentionKi
         for k in range(clause.first, clause.after)
         for e in lexicon.names.get(tokens[k].norm, ())
     )
-
-
-@cache
-def _framing() -> frozenset[str]:
-    """Courtesy and procedure words: read as such, where they stand."""
-    return frozenset(phrases((*FRAMES, *OPENINGS, *TAGS)))
 
 
 @cache

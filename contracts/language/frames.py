@@ -4,6 +4,7 @@ Each frame leaves what is asked for as it is. Whatever could change it (a condit
 """
 
 from collections.abc import Iterator
+from functools import cache
 
 from crew.contracts.language.templates import expansions
 
@@ -142,3 +143,9 @@ AFTER_A_MARK = frozenset(
 def phrases(templates: tuple[str, ...]) -> Iterator[str]:
     """Every wording, with single blanks."""
     return (" ".join(wording.split()) for template in templates for wording in expansions(template))
+
+
+@cache
+def framing() -> frozenset[str]:
+    """Courtesy and procedure words: read as such, where they stand."""
+    return frozenset(phrases((*FRAMES, *OPENINGS, *TAGS)))

@@ -5,7 +5,7 @@ from crew.contracts.language.lexicon import Lexicon, match
 from crew.contracts.language.mention import MentionKind
 from crew.contracts.language.piece import Piece
 from crew.contracts.language.tokens import Shape, Token
-from crew.contracts.language.words import Role
+from crew.contracts.language.words import AFFECTIVE, Role
 
 ARTICLES = frozenset(("the", "a", "an", "all", "both", "your", "our", "my", "any", "this", "that", "these", "those"))
 
@@ -36,7 +36,7 @@ class Lookahead:
 
     def _past_name(self, at: int) -> int:
         """Past one name and its articles, or `at` if no name stands here."""
-        start = self._past(at, tuple(ARTICLES))
+        start = self._past(self._past(at, tuple(ARTICLES)), tuple(AFFECTIVE))
         entry = self._name(start)
         return at if entry is None or entry.kind is MentionKind.ACTION else start + len(entry.words)
 

@@ -7,6 +7,7 @@ import re
 from functools import cache
 
 from crew.contracts.language.entry import stands_all
+from crew.contracts.language.frames import framing
 from crew.contracts.language.lexicon import Lexicon, match
 from crew.contracts.language.mention import MentionKind, Unread
 from crew.contracts.language.persons import DESCRIBING, HELPERS, LOST, TAILS, YEARS_OLD
@@ -30,7 +31,7 @@ def portrayed(text: str, tokens: list[Token], lexicon: Lexicon) -> tuple[list[To
     at = 0
     while at < len(tokens):
         end = _person(tokens, at, known, lexicon)
-        if end is None:
+        if end is None or _is_called(tokens, at, end):
             at += 1
             continue
         if match(lexicon.names, tokens, at) is None:
@@ -73,6 +74,13 @@ def _person(tokens: list[Token], at: int, known: set[str], lexicon: Lexicon) -> 
         return None if tokens[end - 1].possessive else end
     lost = at + 1 < len(tokens) and tokens[at].norm in HELPERS and _compiled("who").match(_said(tokens, at + 1, at + 7))
     return at + 1 if lost and known else None
+
+
+def _is_called(tokens: list[Token], at: int, end: int) -> bool:
+    """`young man, ...`: whoever is spoken to."""
+    begin = next((k + 1 for k in range(at - 1, -1, -1) if tokens[k].shape is Shape.MARK), 0)
+    closed = end == len(tokens) or tokens[end].shape is Shape.MARK
+    return closed and _said(tokens, begin, end) in framing()
 
 
 def _past_lost(tokens: list[Token], at: int) -> int:

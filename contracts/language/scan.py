@@ -116,6 +116,9 @@ class Scanner(Asides):
 
     def _separable(self, at: int) -> Piece | None:
         """`bring the drone down`, `where the victim is`."""
+        name = self._name(at)
+        if name is not None and name.kind in ROBOT_KINDS:
+            return None  # "fly the flying machine over the field"
         for entry in self.lexicon.names.get(self.tokens[at].norm, ()):
             if entry.kind is MentionKind.ACTION and len(entry.words) == 2 and entry.words[1] in _SEPARABLE:
                 end = self._past_named(at + 1)
