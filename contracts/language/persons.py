@@ -36,8 +36,22 @@ HELPERS = _listed(
     "recruit cadet airman firefighter fireman paramedic medic nurse doctor carer caretaker teacher leader instructor "
     "supervisor manager foreman captain pilot observer searcher rescuer operator dispatcher coordinator boss "
     "chief priest guardian crewman crewmember adult male female minor party subject individual baby pal mate buddy "
-    "elder one"
+    "elder one sapper trooper gunner private corporal sergeant lieutenant captain major colonel rifleman marine seaman "
+    "patroller lifeboatman waiter waitress chef cook baker butcher bartender barista receptionist cleaner housekeeper "
+    "porter bellboy concierge librarian clerk secretary accountant editor reporter presenter actor actress cameraman "
+    "stuntman dancer singer musician drummer producer director rigger gaffer painter carpenter joiner welder "
+    "bricklayer glazier plasterer scaffolder trucker docker deckhand bosun stewardess conductor inspector detective "
+    "cop prisoner suspect fugitive refugee migrant evacuee caravanner hitchhiker pilgrim monk nun priest vicar pastor "
+    "rabbi bishop janitor lecturer professor jockey loader packer sorter user patient usher bouncer vendor seller "
+    "shopper shopkeeper landlord biker triathlete marathoner lookout sentry handler trainer coach referee umpire groom "
+    "gamekeeper groundsman zookeeper hairdresser barber tailor judge lawyer notary mayor governor ambassador novice "
+    "freshman sophomore undergraduate scholar babysitter nanny au-pair courier messenger delegate attendee exhibitor "
+    "organiser organizer roadie stagehand extra tattooist artist sculptor writer poet blogger streamer"
 )
+SUFFIXES: tuple[str, ...] = ("man", "woman", "boy", "girl", "person")
+"""Ends of other words for people, behind a word such as `missing`."""
+NO_PEOPLE = frozenset(_listed("snowman talisman ottoman caiman walkman tallboy highboy lowboy gameboy bogeyman"))
+"""Words with such an end that are, or may be, things."""
 """Whoever may be lost, but may as well be somebody else or something else: only with a word such as `missing`."""
 DEAR: tuple[str, ...] = ("poor thing", "poor devil", "poor dear", "poor wretch", "little one", "loved one")
 """What only a feeling makes a person."""

@@ -10,7 +10,7 @@ from crew.contracts.language.entry import stands_all
 from crew.contracts.language.frames import framing
 from crew.contracts.language.lexicon import Lexicon, match
 from crew.contracts.language.mention import MentionKind, Unread
-from crew.contracts.language.persons import DESCRIBING, HELPERS, LOST, TAILS, YEARS_OLD
+from crew.contracts.language.persons import DESCRIBING, HELPERS, LOST, NO_PEOPLE, NOUNS, SUFFIXES, TAILS, YEARS_OLD
 from crew.contracts.language.stories import CLASSES
 from crew.contracts.language.tokens import Shape, Token
 from crew.contracts.language.words import AFFECTIVE
@@ -81,6 +81,31 @@ def _is_called(tokens: list[Token], at: int, end: int) -> bool:
     begin = next((k + 1 for k in range(at - 1, -1, -1) if tokens[k].shape is Shape.MARK), 0)
     closed = end == len(tokens) or tokens[end].shape is Shape.MARK
     return closed and _said(tokens, begin, end) in framing()
+
+
+def lost_person(tokens: list[Token], at: int, lexicon: Lexicon) -> tuple[int, tuple[str, ...]] | None:
+    """`missing trail worker`, `lost cameraman`: a missing worker, a lost man."""
+    if tokens[at].norm not in LOST or not lexicon.reports or match(lexicon.names, tokens, at) is not None:
+        return None
+    for end in range(at + 1, min(at + 4, len(tokens))):
+        word = tokens[end]
+        if word.shape is not Shape.WORD or word.possessive:
+            return None
+        ends = end + 1 == len(tokens) or tokens[end + 1].shape is Shape.MARK or tokens[end + 1].norm in (*_ENDS, "who")
+        if ends and (person := _kind_of_person(word.norm)) is not None:
+            return end + 1 - at, (tokens[at].norm, person)
+        if match(lexicon.names, tokens, end) is not None or match(lexicon.functions, tokens, end) is not None:
+            return None
+    return None
+
+
+def _kind_of_person(word: str) -> str | None:
+    """A plainer word for a person: `man` for a cameraman."""
+    if word in NOUNS:
+        return word
+    return next(
+        (s for s in sorted(SUFFIXES, key=len, reverse=True) if word.endswith(s) and word not in NO_PEOPLE), None
+    )
 
 
 def _past_lost(tokens: list[Token], at: int) -> int:

@@ -12,6 +12,7 @@ from crew.contracts.language.lookahead import ARTICLES, named
 from crew.contracts.language.mention import ROBOT_KINDS, MentionKind
 from crew.contracts.language.patterns import replaced
 from crew.contracts.language.plainer import PLAINER
+from crew.contracts.language.portraits import lost_person
 from crew.contracts.language.restated import restated
 from crew.contracts.language.rewrites import (
     ARROWS,
@@ -49,6 +50,7 @@ def rewritten(tokens: list[Token], lexicon: Lexicon) -> list[Token]:
     while at < len(tokens):
         words, plain = (
             _arrow(tokens, at)
+            or lost_person(tokens, at, lexicon)
             or (_waits(tokens, lexicon) and _before_name(tokens, at, lexicon, _WAITED, MentionKind.LOCATION))
             or _before_name(tokens, at, lexicon, wordings_before_objects(), MentionKind.OBJECT)
             or (

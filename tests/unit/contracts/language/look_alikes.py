@@ -221,6 +221,14 @@ somebody else needs the drone in the north half
 son, find me a job
 find my son, he goes to base
 for the night, send the rover to base
+find the missing snowman
+find the missing talisman
+find the missing man's bag
+find the missing rover driver
+find the missing tool box
+search for the lost user manual
+send the drone to the rover driver
+put the rover over the north half
 """
 
 INDOOR = """
