@@ -76,6 +76,7 @@ THANKS: tuple[str, ...] = (
     "(?:pretty please|please please|please(?= with))(?: please)*"
     "(?: with (?:sugar|a cherry|cherries|knobs|bells) on(?: it| top| the top)?)?",
     "(?:off|on) you (?:go|pop|trot)(?: then| now)?|chop chop|there you go|there we go|that's the (?:way|ticket|spirit)",
+    "(?:here|come on|go on) (?:boy|girl|doggy|doggie)(?: here boy)?",
     "(?:come on|go on|attaboy|attagirl|giddy up|hop to it|right you are)(?: then| now)?"
     "(?: boy| girl| lad| old boy| old girl| love| dear| mate| pal| buddy| now)?",
     "nice one|good stuff|lovely stuff|smashing|brilliant|lovely|wonderful|great stuff|marvellous|super|splendid|"
@@ -97,7 +98,7 @@ WANTED_FOR: tuple[str, ...] = (
     "parched|thirsty|craving|crying out|in need|in want|in dire need|aching|ready)(?: for| of)? (?:a |an |some |my )*"
     "<drink>(?: now| here| please| today)*",
     "(?:i'd|i would|i could|we could|i really|i|we|i do|i'll|we'd) (?:really |so |just |badly |do )*(?:love|like|fancy|"
-    "murder|do with|could use|kill for|go for|need|want|die for|enjoy|be glad of) (?:a|an|some|my|a little|a wee) "
+    "murder|do with|could use|kill for|go for|need|want|die for|enjoy|be glad of) (?:(?:a|an|some|my|a little|a wee) )?"
     "(?:<drink>)(?: now| here| please| today| badly| right now)*",
     "(?:my (?:throat|mouth) is|i'm|i am) (?:so |very |all |terribly |ever so )*(?:dry|parched|bone dry)",
 )

@@ -28,7 +28,14 @@ FRAMES: tuple[str, ...] = (
     "(i'm|i am|we're|we are) (needing|wanting)",
     "make (|it |sure |so |it so )that",
     "(it is|it's) (|very |really )(needed|necessary|required|important|essential|imperative) (to|that|for you to)",
-    "(it would be|that would be|it is) (|very |most |so )(kind|nice|good|helpful) of you (to|if you could)",
+    "(it would be|that would be|it is) (|very |most |so )"
+    "(kind|nice|good|helpful|sweet|lovely|decent) of you (to|if you could)",
+    "(would|could|can|will) (one|any|either) of you (|please |kindly )(|be so kind as to |be kind enough to |mind )",
+    "would it (trouble you|be a bother|be a nuisance|be too much|be a trouble|kill you) (|for you )to",
+    "is there any (way|chance|possibility) (that |)(you|we) (could|can|might)",
+    "(i'm|i am|we're|we are) (asking|telling|ordering|requesting|instructing|begging) you to",
+    "(i|we) (ask|order|tell|instruct|command|beg) you to",
+    "(could|can|would) you (maybe|perhaps|possibly) (|sort of |kind of |just )",
     "(may|might|could|can) (i|we) ask (|you )for (a|an|the)",
     "do you (think|suppose|reckon) you (could|can|might|would)",
     "would you (care|be willing|be so kind as|be good enough) to",
@@ -104,6 +111,7 @@ TAGS: tuple[str, ...] = (
     "come in)",
     "(sir|madam|ma'am|dude|bro|boss|chief|pal|love|honey|sweetie|darling|my dear|mate|buddy|man|guys|folks|my friend)",
     "(will|can|could|would|won't) ya",
+    "(can't|couldn't) (he|she|it|they)",
 )
 """Said where a sentence ends, and nothing follows."""
 
@@ -135,7 +143,29 @@ BEFORE_A_MARK = frozenset((
 ))  # fmt: skip
 """Openings that are verbs or names without a mark behind them."""
 AFTER_A_MARK = frozenset(
-    ("over", "out", "right", "clear", "roger", "yes", "eh", "huh", "man", "chief", "pal", "love", "mate")
+    (
+        "over",
+        "out",
+        "right",
+        "clear",
+        "roger",
+        "yes",
+        "eh",
+        "huh",
+        "man",
+        "chief",
+        "pal",
+        "love",
+        "mate",
+        "can't he",
+        "can't she",
+        "can't it",
+        "can't they",
+        "couldn't he",
+        "couldn't she",
+        "couldn't it",
+        "couldn't they",
+    )
 )
 """Tags that would belong to what stands in front of them, were there no mark between."""
 

@@ -1,9 +1,10 @@
 """Wordings with names in them: `have {object} {done}` is put into plainer words, the names kept where they stand.
 
 `(a|b)` is a choice and may be empty. `{object}`, `{place}`, `{robot}` stand for a name with its article, `{operator}`
-for a noun of whoever asks, `{owner}` for a robot's possessive, `{giver}` for a robot that hands things over, `{it}` a
-pronoun, `{done}` and `{doing}` for such a form of one of the crew's verbs; in the plainer words these two are the verb
-itself. `^` and `$` are where a clause begins and ends, `^^` and `$$` where the request does.
+for a noun of whoever asks, `{owner}` for a robot's possessive, `{giver}` for a robot that hands things over,
+`{carrier}` for one with a tray, `{it}` a pronoun, `{done}` and `{doing}` for such a form of one of the crew's verbs; in
+the plainer words these two are the verb itself. `^` and `$` are where a clause begins and ends, `^^` and `$$` where the
+request does.
 """
 
 import re
@@ -148,7 +149,7 @@ def _said(pattern: Pattern, tokens: list[Token], at: int, end: int, parts: tuple
         ahead = next((p for i in later for p in left if p[0] == i.name), None)
         stop = end if ahead is None else ahead[1]
         covers = tokens[place:stop] or tokens[max(at, stop - 1) : max(at, stop - 1) + 1]
-        yield Token(item, covers[0].start, covers[-1].end, Shape.WORD)
+        yield Token(item, covers[0].start, covers[-1].end, Shape.WORD if item.isalpha() else Shape.MARK)
 
 
 def begins(tokens: list[Token], at: int) -> bool:
@@ -204,6 +205,14 @@ def _giver(tokens: list[Token], at: int, lexicon: Lexicon) -> Found | None:
     return (end, tuple(tokens[at:end])) if robot and able else None
 
 
+def _carrier(tokens: list[Token], at: int, lexicon: Lexicon) -> Found | None:
+    """A robot that carries things on its back."""
+    name, end = _name(tokens, at, lexicon)
+    robot = name is not None and name.kind in ROBOT_KINDS and not tokens[end - 1].possessive
+    able = name is not None and any(set(name.values) <= hosts for hosts in lexicon.hosts.values())
+    return (end, tuple(tokens[at:end])) if robot and able else None
+
+
 def _owner(tokens: list[Token], at: int, lexicon: Lexicon) -> Found | None:
     name, end = _name(tokens, at, lexicon)
     owns = name is not None and name.kind in ROBOT_KINDS and tokens[end - 1].possessive
@@ -243,6 +252,7 @@ SLOTS: Mapping[str, Callable[[list[Token], int, Lexicon], Found | None]] = {
     "robot": _of_kind(*ROBOT_KINDS),
     "operator": _operator,
     "giver": _giver,
+    "carrier": _carrier,
     "owner": _owner,
     "it": _it,
     "done": _of_form(Form.PAST),

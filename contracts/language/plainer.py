@@ -5,12 +5,16 @@ No plainer wording adds a name, a place, a figure or a negation, nor takes one a
 
 import re
 
+from crew.contracts.language.plainer_moves import MOVES
+from crew.contracts.language.plainer_walks import WALKS
+
 _MAY = "(may|might|can|could)"
 _WISH = (
     "(what i want is|what i need is|all i want is|all i need is|what we need is|what i'd like is|all we need is|"
     "what i would like is|what we want is|what i need is ,|what i want is ,|"
     "i want|i need|i require|i'd like|i would like|i should like|i'd love|i would love|i'd prefer|i would prefer|"
-    "i wish|i'd appreciate|i'll have|we want|we need|we require|we'd like|we would like|we should like|we'd love|"
+    "i wish|i'd appreciate|i'll have|i would like to receive|i'd like to receive|i want to receive|i'd like to get|"
+    "i would like to get|i want to get|we want|we need|we require|we'd like|we would like|we should like|we'd love|"
     "we would love|we'd prefer|we wish)"
 )
 _HAVE = "(have|get|see|want|let|need)"
@@ -50,6 +54,7 @@ PLAINER: tuple[tuple[str, str], ...] = (
     (f"{_GIVING} {{object}} (|down |back |over |right |straight ){_MY_HAND}", "hand {object} to me"),
     (f"(hand|give|pass|bring|get|fetch) (me|to me|for me) {{object}} {_MY_HAND}", "hand me {object}"),
     (f"(hand|give|pass|bring) (|to )me (in|into) (the|my) {_HAND} {{object}}", "hand me {object}"),
+    (f"{_WISH} {{object}} (in|into) the {_HAND}", "hand {object} to me"),
     (f"{_WISH} (|to have ){{object}} (|put |placed |given |laid |set ){_MY_HAND}", "hand {object} to me"),
     (f"^ {_MAY} (i|we) (have|get) {{object}} {_MY_HAND}", "hand {object} to me"),
     (f"^ {{object}} {_MY_HAND} $", "hand {object} to me"),
@@ -114,7 +119,7 @@ PLAINER: tuple[tuple[str, str], ...] = (
     ),
     ("^ (make it so|make it so that|fix it so|fix it so that|do that|do so that|make so that)", "make sure that"),
     ("^ (have|get|put) {robot} (back |)(on|onto|in|at|by) (its|his|her|their) {place}", "send {robot} to {place}"),
-    (f"^ (have|get|put|set|leave) {{robot}} {_CHARGED} $", "send {robot} to charging"),
+    (f"^ (|let's |lets |let us )(have|get|put|set|leave) {{robot}} {_CHARGED} $", "send {robot} to charging"),
     (
         "^ (let|have|get|make) {robot} (recharge|charge|charge up|recharge itself|charge itself) $",
         "send {robot} to charging",
@@ -143,6 +148,12 @@ PLAINER: tuple[tuple[str, str], ...] = (
     ("^^ (|yeah |well |so |okay |ok |yes |look |oh |right )i mean (|just |like )", "please"),
     (f"{{operator}} {_STAYS} (to|in|at|into|by) {{place}} and (needs|wants|requires)", "{operator} needs"),
     (f"{{operator}} {_STAYS} (to|in|at|into|by) {{place}} $", "{operator}"),
+    (
+        "{operator} (is|sits|stands|is standing|is sitting|is waiting|waits) (|right |just )(at|by|beside|"
+        "next to|near) "
+        "(the|his|her|their) (table|desk|robot|humanoid|chair) and (needs|wants|requires)",
+        "{operator} needs",
+    ),
     ("^^ {object} (for me|for us) $$", "bring me {object}"),
     ("^^ {object} (for me|for us) (|,) please $$", "bring me {object}"),
 )
@@ -151,4 +162,6 @@ PLAINER: tuple[tuple[str, str], ...] = (
 
 def plainer_words() -> frozenset[str]:
     """Every word of these wordings: none of them is a slip."""
-    return frozenset(w for said, _ in PLAINER for w in re.findall(r"[a-z']+", re.sub(r"\{\w+\}", "", said)))
+    return frozenset(
+        w for said, _ in (*PLAINER, *MOVES, *WALKS) for w in re.findall(r"[a-z']+", re.sub(r"\{\w+\}", "", said))
+    )

@@ -51,7 +51,7 @@ _TO_MINE = tuple(
         ("up", "to", "my"), ("to", "our"), ("into", "my"),
     )
 )  # fmt: skip
-_NEEDING = tuple(
+NEEDING = tuple(
     tuple(said.split())
     for said in (
         "would like",
@@ -70,6 +70,11 @@ _NEEDING = tuple(
         "could do with",
         "are waiting for",
         "is waiting for",
+        "want to play with",
+        "would like to play with",
+        "wants to play with",
+        "want to see",
+        "wants to see",
     )
 )
 Said = tuple[int, list[Token]]
@@ -110,7 +115,7 @@ def _forms(verbs: tuple[str, ...]) -> frozenset[str]:
 
 def for_whom(tokens: list[Token], at: int, lexicon: Lexicon) -> Said | None:
     """`take it to room B for the children`: where it goes has been said."""
-    if tokens[at].norm != "for" or (end := _past_people(tokens, at + 1)) is None:
+    if tokens[at].norm != "for" or (end := past_people(tokens, at + 1)) is None:
         return None
     end += end < len(tokens) and tokens[end].norm in ("there", "please")
     closed = end >= len(tokens) or tokens[end].shape is Shape.MARK or tokens[end].norm in ("and", "now")
@@ -120,7 +125,7 @@ def for_whom(tokens: list[Token], at: int, lexicon: Lexicon) -> Said | None:
 
 def to_whom(tokens: list[Token], at: int, lexicon: Lexicon) -> Said | None:
     """`take it to my wife in room A`: to room A."""
-    end = _past_people(tokens, at + 1) if tokens[at].norm == "to" else None
+    end = past_people(tokens, at + 1) if tokens[at].norm == "to" else None
     if end is None or end + 1 >= len(tokens) or tokens[end].norm not in ("in", "at"):
         return None
     start = past_article(tokens, end + 1)
@@ -133,7 +138,7 @@ def to_whom(tokens: list[Token], at: int, lexicon: Lexicon) -> Said | None:
 def who_is_there(tokens: list[Token], at: int, lexicon: Lexicon) -> Said | None:
     """`the children in room B want the cube`: whoever is there."""
     begin = at and tokens[at - 1].shape is not Shape.MARK and tokens[at - 1].norm not in ("and", "because", "so", "as")
-    end = None if begin else _past_people(tokens, at)
+    end = None if begin else past_people(tokens, at)
     if end is None or end + 2 >= len(tokens) or tokens[end].norm not in ("in", "at", "over"):
         return None
     start = past_article(tokens, end + 1 + (tokens[end].norm == "over"))
@@ -141,7 +146,7 @@ def who_is_there(tokens: list[Token], at: int, lexicon: Lexicon) -> Said | None:
     if name is None or name.kind is not MentionKind.LOCATION:
         return None
     after = start + len(name.words)
-    wish = next((words for words in _NEEDING if stands_all(tokens, after, words)), None)
+    wish = next((words for words in NEEDING if stands_all(tokens, after, words)), None)
     if wish is None:
         return None
     needs = Token("needs", tokens[after].start, tokens[after + len(wish) - 1].end, Shape.WORD)
@@ -153,10 +158,10 @@ def who_wants(tokens: list[Token], at: int, lexicon: Lexicon) -> Said | None:
     begins = (
         not at or tokens[at - 1].shape is Shape.MARK or tokens[at - 1].norm in ("and", "because", "so", "as", "since")
     )
-    end = _past_people(tokens, at) if begins else None
+    end = past_people(tokens, at) if begins else None
     if end is None or end >= len(tokens):
         return None
-    wish = next((words for words in _NEEDING if stands_all(tokens, end, words)), None)
+    wish = next((words for words in NEEDING if stands_all(tokens, end, words)), None)
     start = past_article(tokens, end + len(wish)) if wish is not None else len(tokens)
     name = match(lexicon.names, tokens, start) if start < len(tokens) else None
     if wish is None or name is None or name.kind not in (*ROBOT_KINDS, MentionKind.OBJECT):
@@ -169,12 +174,12 @@ def who_wants(tokens: list[Token], at: int, lexicon: Lexicon) -> Said | None:
     return (end + len(wish), [we, need]) if placed else None
 
 
-def _past_people(tokens: list[Token], at: int) -> int | None:
+def past_people(tokens: list[Token], at: int, *, owned: bool = False) -> int | None:
     """Past a noun for people that the crew gives no meaning."""
     end = at
     while end < len(tokens) and (tokens[end].norm in _WHOSE or tokens[end].norm in _KINDLY):
         end += 1
-    known = end < len(tokens) and tokens[end].norm in _PEOPLE and not tokens[end].possessive
+    known = end < len(tokens) and tokens[end].norm in _PEOPLE and (owned or not tokens[end].possessive)
     return end + 1 if known else None
 
 

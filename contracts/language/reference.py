@@ -54,6 +54,10 @@ def _resolve(pieces: list[Piece], at: int, lexicon: Lexicon) -> str | None:
     if pronoun.norm in _PEOPLE and len({p.name for p in ahead}) == 1 and ahead[0].positive:
         pronoun.resolve(ahead[0])  # "find him, the hiker"
         return None
+    told = _told_behind(pieces, at) if pronoun.norm in ("it", "them") else None
+    if told is not None:
+        pronoun.resolve(told)  # "put it on table_a, the cube"
+        return None
     return None if _sought(pieces, pronoun, lexicon) else "refers to nothing that the request names"
 
 
@@ -89,6 +93,19 @@ def _groups(pieces: list[Piece], at: int, lexicon: Lexicon) -> Iterator[Group]:
     yield _ROBOTS
     yield (MentionKind.VALUE,)
     yield (MentionKind.OBJECT,)
+
+
+def _told_behind(pieces: list[Piece], at: int) -> Piece | None:
+    """The one thing that is named behind a mark at the end of the request, by itself."""
+    named = [p for p in pieces if p.kind is MentionKind.OBJECT]
+    if (
+        len(named) != 1
+        or pieces.index(named[0]) < at
+        or named[0] is not next((p for p in reversed(pieces) if p.role not in SOFT | {Role.PUNCTUATION}), None)
+    ):
+        return None
+    opening = before(pieces, pieces.index(named[0]))
+    return named[0] if opening is not None and opening.role is Role.PUNCTUATION else None
 
 
 def _part(candidate: Piece, lexicon: Lexicon) -> bool:

@@ -12,6 +12,8 @@ from crew.contracts.language.lookahead import ARTICLES, named
 from crew.contracts.language.mention import ROBOT_KINDS, MentionKind
 from crew.contracts.language.patterns import replaced
 from crew.contracts.language.plainer import PLAINER
+from crew.contracts.language.plainer_moves import MOVES
+from crew.contracts.language.plainer_walks import WALKS
 from crew.contracts.language.portraits import lost_person
 from crew.contracts.language.restated import restated
 from crew.contracts.language.rewrites import (
@@ -36,7 +38,9 @@ from crew.contracts.language.told import told
 Wordings = Mapping[str, Sequence[tuple[Words, Words]]]
 _GRABBED: tuple[Words, ...] = (("grab",), ("pick", "up"), ("get",), ("go", "get"), ("take",))
 _ARROW_MARKS = frozenset("-=>")
-_WAITED: Wordings = {WAITING[0][0]: tuple((words, ("go", "to")) for words in WAITING)}
+_WAITED: Wordings = {
+    first: tuple((words, ("go", "to")) for words in WAITING if words[0] == first) for first in {w[0] for w in WAITING}
+}
 
 
 def rewritten(tokens: list[Token], lexicon: Lexicon) -> list[Token]:
@@ -45,7 +49,9 @@ def rewritten(tokens: list[Token], lexicon: Lexicon) -> list[Token]:
     at = 0
     tokens = findings(restated(with_commas(tokens), lexicon), lexicon)
     tokens = spoken([t for k, t in enumerate(tokens) if not _hesitation(tokens, k, lexicon)], lexicon)
-    tokens = told(replaced(tokens, PLAINER, lexicon), lexicon)
+    for wordings_with_names in (MOVES, WALKS, PLAINER):
+        tokens = replaced(tokens, wordings_with_names, lexicon)
+    tokens = told(tokens, lexicon)
     tokens = heights(staying(endings(tokens, lexicon), lexicon), lexicon)
     while at < len(tokens):
         words, plain = (

@@ -10,6 +10,7 @@ from crew.contracts.language.lexicon import Lexicon, match
 from crew.contracts.language.lookahead import ARTICLES
 from crew.contracts.language.mention import ROBOT_KINDS, MentionKind
 from crew.contracts.language.patterns import past_article
+from crew.contracts.language.placed_people import placed_people
 from crew.contracts.language.recipients import Said, for_whom, seat, to_whom, who_is_there, who_wants
 from crew.contracts.language.tokens import Shape, Token
 from crew.contracts.language.words import AFFECTIVE, word_set
@@ -20,6 +21,7 @@ _NATO = word_set(
     "sierra tango uniform victor whiskey xray yankee zulu"
 )
 _SPELLED = _NATO | word_set("alfa bee apple adam anna able bob boy baker ball bear banana berlin bertha anton")
+_NUMBERED = word_set("number no nr called named letter marked labelled labeled")
 _LIKE = (("as", "in"), ("for",), ("like",), ("like", "in"), ("as", "for"))
 _MOTION = word_set("to at towards toward into from near by for")
 _DESCRIBING = word_set(
@@ -35,7 +37,7 @@ _MEANT_TWICE = word_set("again more very over that had no x y")
 
 def spoken(tokens: list[Token], lexicon: Lexicon) -> list[Token]:
     """The tokens of a request as they would be written."""
-    tokens = _once(_flowing(tokens), lexicon)
+    tokens = placed_people(_once(_flowing(tokens), lexicon), lexicon)
     out: list[Token] = []
     at = 0
     while at < len(tokens):
@@ -88,8 +90,9 @@ def _repeat(tokens: list[Token], length: int, lexicon: Lexicon) -> int | None:
     turning = lexicon.vocabulary.turning
     counted = any(is_numeral(tokens, k) for k in range(first, len(tokens)))
     kept = counted or any(t.norm in turning or t.norm.endswith("n't") or t.possessive for t in again)
-    if comma and length == 1 and again[0].norm in _OPENING:
-        return None
+    named = any(e.kind is not MentionKind.ACTION for e in lexicon.names.get(again[0].norm, ()))
+    if comma and length == 1 and (again[0].norm in _OPENING or (named and first)):
+        return None  # "thank you, you may wave", "load it on the dog, dog to room A"
     letter = length == 1 and (len(again[0].norm) == 1 or again[0].norm in _MEANT_TWICE)
     return None if kept or (letter and again[0].norm != "a") else second - comma
 
@@ -109,6 +112,10 @@ def _described(tokens: list[Token], at: int, lexicon: Lexicon) -> Said | None:
 def _spelled(tokens: list[Token], at: int, lexicon: Lexicon) -> Said | None:
     """`room bravo`: a letter by its name, where the crew has that place and none of this name."""
     word = tokens[at].norm
+    if word in _NUMBERED and at and at + 1 < len(tokens):
+        joined = match(lexicon.names, [tokens[at - 1], tokens[at + 1]], 0)
+        placed = joined is not None and joined.kind is MentionKind.LOCATION and len(joined.words) == 2
+        return (at + 1, []) if placed and len(tokens[at + 1].norm) == 1 else None
     if (word not in _NATO and word not in ("alfa", "bee")) or not at:
         return None
     letter = tokens[at]._replace(norm=word[0])

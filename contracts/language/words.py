@@ -243,7 +243,8 @@ NICKNAMES: dict[str, tuple[str, ...]] = {
     ),
     "humanoid": (
         "android", "two legged robot", "two legged one", "robot with two legs", "one with two legs", "big robot",
-        "bigger robot", "tall robot", "taller robot", "large robot", "robot with arms", "one with arms",
+        "bigger robot", "big one", "tall one",
+        "tall robot", "taller robot", "large robot", "robot with arms", "one with arms",
         "robot with the arms", "one with the arms", "robot with hands", "one with hands", "one with the hands",
         "robot with the arm", "one with the arm", "human like robot", "humanlike robot", "manlike robot",
         "two legged machine", "two legged fellow", "standing robot", "two armed robot", "robot man",

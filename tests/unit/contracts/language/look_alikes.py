@@ -653,4 +653,191 @@ humanoid, dog, bottle to room_a or room_b
 take the cube off the shelf
 the bottle is off the table
 is this where I want the dog parked
+I don't want to hold the cube, could you pass it
+I want to see the cube burn, give it fire
+my wife is in room A and she has the bottle, take it to her
+my wife is in room A and she'd hate the bottle, take it to her
+my wife is in room C and she'd like the bottle, please take it to her
+my wife was in room A, take the bottle to her
+my wife is not in room A, take the bottle to her
+is my wife in room A, then take the bottle to her
+my wife is in room A and my sister is in room B, take the bottle to her
+if my wife is in room A, take the bottle to her
+my wife may be in room A, take the bottle to her
+grandma's in room B, don't take the bottle to her
+someone in room A is asleep, take the bottle there
+someone in room A is ill, so don't take the bottle there
+the bottle in room A is thirsty, take it there
+they're not waiting for the bottle in room B
+they were waiting for the bottle in room B
+use the dog
+don't use the dog
+use the hammer, cube to dropoff
+cube to dropoff, don't use the dog
+cube to dropoff, use the drone
+Pick up: red cube. Drop off: room C.
+Pick up: hammer. Drop off: room B.
+Pick up: red cube. Drop off: room A or room B.
+Object: bottle. Destination: kitchen.
+Object: bottle. Destination: room A. Time: noon.
+Object: bottle. Destination: none.
+Job: bottle to the first room. Carrier: none.
+Job: bottle to the first room. Carrier: forklift.
+make a delivery of the parcel
+the delivery of the bottle was made
+give the bottle to the cat and take it to room B
+give the bottle to the drone and take it to room B
+give the dog a bone
+give the dog food and send it to room A
+hand the cube to the dog, not to me
+load the dog with the hammer and send it to room A
+fill the bottle with water and take it to room A
+on the back of the bottle is a label
+I ask that the red cube is not brought to the second room
+it is desired that nobody brings the bottle to room A
+it is planned that the bottle goes to room A tomorrow
+is the dog not able to carry the bottle to room A
+was the dog able to carry the bottle to room A
+might the red cube be in room A
+may the red cube not be taken to room A
+what about the dog
+how about not sending the dog to room A
+why not leave the dog in peace
+why not
+it's time for the dog to die
+it's no time for the dog to take the cube to room A
+get the dog ready
+have the dog ready at the pickup point at noon
+get the dog waiting at the door
+dog, come off it
+dog, come to the kitchen
+come, bottle
+come and see the doctor
+come and get it
+plug the phone in
+plug the dog in tomorrow
+take the cube in your mouth
+hold the cube in my hand
+hold the bottle for me to see tomorrow
+hold up the bottle so everyone can drink
+take hold of the cube and let go
+pick up the cube and don't
+put it on table A, the hammer
+put it on table A, not the cube
+put it on table A, the cube or the bottle
+put it on table A, then the cube
+return the favour to table A
+return the bottle to the shop
+switch the light to table A
+clear table A of the bottle
+clear the bottle off table C onto table B
+slide the cube off table A
+whizz the cube over to room C
+rush the bottle to the doctor
+the bottle belongs in the kitchen, put it there
+the bottle does not belong in room A, put it there
+the bottle found its way to room B
+humanoid: cube -> shelf
+humanoid: no cube -> table B
+humanoid: cube -> table A -> table B
+quadruped, hold at the kitchen
+quadruped, hold at the pickup point for ten minutes
+quadruped, stand by at room A until noon
+quadruped, report to the manager
+quadruped, don't stand by at room A
+the dog stays at home
+the dog can go and sit in the car
+the dog can't bring me the cube, can he
+the bottle is in room A, isn't it
+the big one
+give me the big one
+send the big one to room A
+hand me the bottle over the fence
+pass me the bottle over there tomorrow
+would one of you not pass the bottle
+could you maybe not send the dog to room A
+room B from stage, no cube
+G1 from the shop, go to room A and buy milk
+housekeeping needs no dog in room B
+housekeeping needs the dog in the kitchen
+housekeeping needed the dog in room B
+what I need is the bottle emptied and taken to the first room
+what I need is not the bottle taken to the first room
+pick up the cube and give it to her
+pick up the cube and give it back
+grab the cube and hand it to the children
+get the cube from the dog and deliver it to room B
+get the cube from the shop and deliver it to room B
+lift the bottle off the shelf
+lift the bottle off the table and throw it
+the dog robot, he must not go in the room B
+the dog robot, must he go in the room B
+bring the bottle over to me when I'm back here on the couch
+bring the bottle over to me if I'm on the couch
+young fellow, don't put that red block in my hand
+crew from ski patrol, do not send the red cube to drop-off
+the dog wandered over to room A
+the dog does not wander over to room A
+is the dog wandering over to room A
+the dog may not pop over to room A
+the cat should pop over to room A
+let the dog wander over to room C
+let the dog wander about
+ensure the quadruped does not proceed to room B
+ensure the quadruped proceeds nowhere
+make sure the dog gets to the vet
+see if the dog gets to room A
+get yourself over to the kitchen, dog
+let room A have no bottle
+don't let room A have the bottle
+let the kitchen have the bottle
+give room C the bottle
+give the cat the bottle
+supply room B with coffee
+supply room B with the bottle tomorrow
+room B is to receive nothing
+room B should not receive the cube
+room B received the cube
+has room B been promised the bottle
+load cube on dog, dog to kitchen
+load hammer on dog, dog to dropoff
+load cube on dog, not dog to dropoff
+red cube on dog
+is the red cube on the dog
+cube on the dog and off
+by quadruped, hammer to room B
+by lorry, bottle to room B
+to room C, the bottle please
+to room A, the hammer please
+to room A, not the bottle
+into room A with that hammer
+into room C with that cube, dog
+away with the cube
+off with the bottle
+send the dog to room A with the bottle on board tomorrow
+the cube may be put on table C
+the cube may not be put on table A
+the cube can not go on table A
+the cube could have gone on table A
+bottle must stand on table A
+let the cube not be on table A
+get that cube up on the shelf
+I'd love to see the humanoid wave goodbye to table A tomorrow
+I don't want to see the humanoid wave
+any chance of rain
+any chance of the hammer
+is there any chance of not getting the bottle
+would it trouble you not to hand me the bottle
+I am not asking you to give me the bottle
+request no handover of red cube
+handover of red cube cancelled
+handover of the hammer
+here's what I want: nothing
+have the dog come over with the hammer
+have the dog come over without the cube
+bring the bottle out to him in the garden
+room number C, dog
+put the cube on table number C
+send the dog to room number 7
+G1 place bottle table bravo or alpha
 """
