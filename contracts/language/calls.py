@@ -36,7 +36,8 @@ _NOUN = (
 _MINE = "(?:the |our |your |a )?"
 _STATION = (
     f"(?:{_MINE}(?:(?!not |no |never |if |only |just |my )[a-z]+ ){{0,2}}(?:NAME |PLACE )?{_NOUN}(?: {_NUMBER}){{0,3}}|"
-    f"{_SPELLED}(?: {_SPELLED})?(?: {_NUMBER}){{0,3}})"
+    f"{_SPELLED}(?: {_SPELLED})?(?: {_NUMBER}){{0,3}}|(?!not |no |only |part |step |phase |test |take |half |room |"
+    f"day |attempt |number |zone |option )[a-z]+ {_NUMBER}(?: {_NUMBER}){{0,2}})"
 )
 _PLAIN_STATION = (
     "(?:the )?(?:(?!not |no |never |if |this |that |is |it |i |we )[a-z]+ )?(?:control|command|ops|operations|"
@@ -63,7 +64,7 @@ _WHOLE: tuple[str, ...] = (
     f"{_HAIL}{_IS} {_STATION}{_SPEAKS}",
     f"{_HAIL}{_STATION} (?:speaking|calling|here)",
     f"{_HAIL}(?:from )?{_PLAIN_STATION}{_SPEAKS}",
-    f"{_HAIL}{_STATION} {_TO} {_CREW}",
+    f"{_HAIL}{_STATION} (?:{_TO} {_CREW}|from {_STATION})",
     f"{_HAIL}{_CREW}(?: (?:from|this is) {_STATION}{_SPEAKS})?",
     f"(?:calling|message (?:to|for)|orders? (?:to|for)|instructions? (?:to|for)|to|attention|for|hello|dear) {_CREW}",
     "(?:calling|attention) (?:all |both )?robots",

@@ -69,6 +69,8 @@ _OVER: tuple[str, ...] = (
     "end of (?:the )?(?:mission|operation|exercise|shift|day|drill|work|job|task)",
     f"(?:let's |let us |we |time to |we'll |we can )?(?:call it a (?:day|night)|pack (?:it )?(?:up|in)|wrap (?:it|this|"
     f"things) up|wrap up|knock off|leave it there|leave it at that){_SO_FAR}",
+    f"(?:we're|i'm|we are|i am) (?:ending|stopping|finishing|closing|wrapping up|concluding) (?:this|the|our|here)"
+    f"(?: (?:run|session|exercise|test|mission|search|operation|job|task|drill|here|today|trial|day))?{_SO_FAR}",
     f"(?:finish|finishing|conclude) (?:all|everything|it all|all of it|here|now){_SO_FAR}",
     f"(?:that'll|that will|this will|that would) do{_SO_FAR}|enough{_SO_FAR}|no more{_SO_FAR}|finished|done|"
     "time's up|time is up|our time is up",
@@ -76,6 +78,7 @@ _OVER: tuple[str, ...] = (
 """What says that it is over."""
 
 
+_CALLED = frozenset(("lads", "guys", "folks", "everyone", "team", "boys", "people", "everybody", "mates", "friends"))
 _ASKED = frozenset(("can", "could", "would", "will", "please", "may"))
 _OPENS = frozenset(("and", "please", "so", "now", "then", "ok", "okay", "right", "just", "uh", "um", "hey", "again"))
 
@@ -84,6 +87,7 @@ def endings(tokens: list[Token], lexicon: Lexicon) -> list[Token]:
     """The tokens of a request with `abort everything` for whatever orders that."""
     if not lexicon.preempting or _ABORT not in lexicon.names:
         return tokens
+    tokens = _parted(tokens, lexicon)
     out: list[Token] = []
     at = 0
     while at < len(tokens):
@@ -100,6 +104,27 @@ def endings(tokens: list[Token], lexicon: Lexicon) -> list[Token]:
             out.append(tokens[at])
             at += 1
     return out
+
+
+def _parted(tokens: list[Token], lexicon: Lexicon) -> list[Token]:
+    """`that's it we're done lads land the drone`: with the commas that were not written."""
+    ends: list[int] = []
+    at = next((k for k, t in enumerate(tokens) if t.norm not in _OPENS and t.shape is not Shape.MARK), 0)
+    while at < len(tokens):
+        said = spelled(tokens, at, lexicon, _naming(lexicon), _LONGEST)
+        end = said.longest(_compiled("over"))
+        if not end:
+            break
+        at = said.spans[end - 1][1]
+        ends.append(at)
+        while at < len(tokens) and tokens[at].norm in _CALLED:
+            at += 1
+    verb = match(lexicon.names, tokens, at) if ends and at < len(tokens) else None
+    if verb is None or not any(r.contract in lexicon.preempting for r in verb.means):
+        return tokens
+    parted = [(t, k + 1 in ends) for k, t in enumerate(tokens) if not (ends[0] <= k < at and t.norm in _CALLED)]
+    marked = ((t, Token(",", t.end, t.end, Shape.MARK) if closes else None) for t, closes in parted)
+    return [token for pair in marked for token in pair if token is not None]
 
 
 def is_over(tokens: list[Token], first: int, after: int, lexicon: Lexicon) -> bool:

@@ -7,6 +7,7 @@ from crew.contracts.language.words import DIGIT_WORDS, METRES, OTHER_UNITS, TENS
 
 _SIGNS = {"minus": -1.0, "negative": -1.0, "plus": 1.0}
 _PARTED = frozenset(("point", "decimal", "minus", "negative", "plus"))
+_SOUNDS = frozenset(("um", "uh", "er", "erm", "hmm", "like"))
 _TAINTED = frozenset(("%", "/", "*", "^", "$", "#", "'"))
 
 
@@ -38,7 +39,8 @@ def is_numeral(tokens: list[Token], at: int) -> bool:
 def with_commas(tokens: list[Token]) -> list[Token]:
     """`three comma six point five`: the mark for the word, where it can be no decimal comma.
 
-    That is where what follows has a sign or a decimal point of its own, or what precedes it has one.
+    That is where what follows has a sign or a decimal point of its own, or what precedes it has one, and behind `to`
+    and its like, where a single figure would be no place.
     """
     out: list[Token] = []
     for at, token in enumerate(tokens):
@@ -46,8 +48,17 @@ def with_commas(tokens: list[Token]) -> list[Token]:
         second = figure(tokens, at + 1) if spoken else None
         ahead = {"point", "decimal"} & {t.norm for t in tokens[max(0, at - 4) : at]}
         parted = second is not None and (ahead or _PARTED & {t.norm for t in tokens[at + 1 : second.after]})
-        out.append(token._replace(norm=",", shape=Shape.MARK) if second and parted and not second.metres else token)
+        placed = second is not None and second.after >= len(tokens) - 2 and _placed(tokens, at - 2)
+        sure = second is not None and (parted or placed) and not second.metres
+        out.append(token._replace(norm=",", shape=Shape.MARK) if sure else token)
     return out
+
+
+def _placed(tokens: list[Token], at: int) -> bool:
+    """Whether a place is to follow behind this token, but for sounds of hesitation."""
+    while at > 0 and (tokens[at].norm in _SOUNDS or tokens[at].shape is Shape.MARK):
+        at -= 1
+    return at >= 0 and tokens[at].norm in ("to", "towards", "position", "coordinates", "point", "location", "waypoint")
 
 
 def figure(tokens: list[Token], at: int) -> Figure | None:

@@ -46,7 +46,7 @@ FRAMES: tuple[str, ...] = (
     "(perhaps|maybe) (you|we|someone) (could|can|might)",
     "(do|would) you mind",
     "(|i |we |you )(want|wanna) to",
-    "pretty please",
+    "(pretty please|abeg|biko|pleeease|pleease|prithee)",
     "if (it's|it is) (no|not a|no great|no big) (trouble|bother|problem|hassle|bother at all|trouble at all)",
     "(let's try|let us try)",
     "be able to",

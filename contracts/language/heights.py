@@ -88,7 +88,7 @@ def _height(tokens: list[Token], at: int, *, noun: bool) -> tuple[int, Figure | 
         named += 1
     if norm_at(tokens, named) in _NOUNS:
         start = named + 1
-        while norm_at(tokens, start) in ("of", ":", "=", "at", "is", "to"):
+        while norm_at(tokens, start) in ("of", ":", "=", "at", "is", "to", "flying", "flight"):
             start += 1
         return named, figure(tokens, start)
     value = figure(tokens, begin)
@@ -108,6 +108,9 @@ def _turned(tokens: list[Token], at: int) -> tuple[int, list[Token]] | None:
 
 def _noun(tokens: list[Token], at: int) -> tuple[int, list[Token]] | None:
     """`flight altitude 5 metres`, `flight level 5 metres`."""
+    flown = tokens[at].norm in _NOUNS and norm_at(tokens, at + 1) == "of" and norm_at(tokens, at + 2) in _OF_FLIGHT
+    if flown and figure(tokens, at + 3) is not None:
+        return at + 3, [tokens[at]]
     if tokens[at].norm not in _OF_FLIGHT or norm_at(tokens, at + 1) not in (*_NOUNS, "level"):
         return None
     start = at + 2

@@ -7,6 +7,7 @@ from itertools import product
 import msgspec
 
 from crew.contracts.contract import Contract, Step
+from crew.contracts.language.afield import afield_words
 from crew.contracts.language.entry import Entry, Words, stands, words_of
 from crew.contracts.language.inflect import Form, inflections
 from crew.contracts.language.mention import MentionKind, StepRef
@@ -78,7 +79,8 @@ class Lexicon(msgspec.Struct, frozen=True, kw_only=True, dict=True):
             | SINGLE_WORDS
             | wording_words()
             | told_words()
-            | plainer_words(),
+            | plainer_words()
+            | afield_words(),
             names=frozenset(word for found in self.names.values() for e in found for word in e.words),
             silent=frozenset(word for word, e in single.items() if e.role in SILENT),
             pronouns=frozenset(w for w, e in single.items() if e.role in LINKING and len(w) >= SHORTEST_SWAPPED)

@@ -2,9 +2,10 @@
 
 `(a|b)` is a choice and may be empty. `{object}`, `{place}`, `{robot}` stand for a name with its article, `{operator}`
 for a noun of whoever asks, `{owner}` for a robot's possessive, `{giver}` for a robot that hands things over,
-`{carrier}` for one with a tray, `{it}` a pronoun, `{done}` and `{doing}` for such a form of one of the crew's verbs; in
-the plainer words these two are the verb itself. `^` and `$` are where a clause begins and ends, `^^` and `$$` where the
-request does.
+`{carrier}` for one with a tray, `{flier}` and `{driver}` for one that takes off or stops, `{zone}`, `{person}` and
+`{height}` for these, `{it}` a pronoun, `{done}` and `{doing}` for such a form of one of the crew's verbs; in the plainer
+words these two are the verb itself. `^` and `$` are where a clause begins and ends, `^^` and `$$` where the request
+does.
 """
 
 import re
@@ -13,6 +14,7 @@ from functools import cache
 from typing import NamedTuple
 
 from crew.contracts.language.entry import Entry, Words, stands_all
+from crew.contracts.language.figures import figure
 from crew.contracts.language.inflect import Form, inflections
 from crew.contracts.language.lexicon import Lexicon, match
 from crew.contracts.language.lookahead import ARTICLES
@@ -246,8 +248,38 @@ def _base(entry: Entry, lexicon: Lexicon) -> Words | None:
     return next((e.words for e in alike if (entry.form, entry.words) in inflections(e.words)), None)
 
 
+def _whom(tokens: list[Token], at: int, lexicon: Lexicon) -> Found | None:
+    """Somebody, by a name or a pronoun."""
+    pronoun = tokens[at].norm in ("him", "her", "them")
+    return (at + 1, (tokens[at],)) if pronoun else _of_kind(MentionKind.VALUE)(tokens, at, lexicon)
+
+
+def _height(tokens: list[Token], at: int, _: Lexicon) -> Found | None:
+    """A figure in metres."""
+    value = figure(tokens, at)
+    return (value.after, tuple(tokens[at : value.after])) if value is not None and value.metres else None
+
+
+def _able(verb: str) -> Callable[[list[Token], int, Lexicon], Found | None]:
+    """A robot that has a skill of this name."""
+
+    def read(tokens: list[Token], at: int, lexicon: Lexicon) -> Found | None:
+        name, end = _name(tokens, at, lexicon)
+        if name is None or name.kind not in ROBOT_KINDS or tokens[end - 1].possessive or name.plural:
+            return None
+        able = all(verb in lexicon.members.get(str(v), frozenset()) for v in name.values)
+        return (end, tuple(tokens[at:end])) if able else None
+
+    return read
+
+
 SLOTS: Mapping[str, Callable[[list[Token], int, Lexicon], Found | None]] = {
     "object": _of_kind(MentionKind.OBJECT),
+    "zone": _of_kind(MentionKind.ZONE),
+    "person": _whom,
+    "height": _height,
+    "flier": _able("takeoff"),
+    "driver": _able("stop"),
     "place": _of_kind(MentionKind.LOCATION),
     "robot": _of_kind(*ROBOT_KINDS),
     "operator": _operator,

@@ -3,7 +3,7 @@
 from crew.contracts.language.inflect import Form
 from crew.contracts.language.lexicon import Lexicon
 from crew.contracts.language.mention import Ambiguity, Direction, MentionKind
-from crew.contracts.language.persons import NOUNS
+from crew.contracts.language.persons import APART, BROAD, NOUNS
 from crew.contracts.language.piece import Piece, before, behind
 from crew.contracts.language.tokens import Token
 from crew.contracts.language.words import PLACE_NOUNS, ZONE_NOUNS, Role
@@ -61,5 +61,9 @@ def _caused(pieces: list[Piece], at: int) -> bool:
 
 
 def _differ(piece: Piece, other: Piece, said: dict[int, str]) -> bool:
-    unsaid = _PRONOUNS | _GENERAL
-    return piece is not other and said[id(piece)] != said[id(other)] and said[id(other)] not in unsaid
+    one, another = said[id(piece)], said[id(other)]
+    if piece is other or one == another or another in _PRONOUNS | _GENERAL:
+        return False
+    broad = {one, another} & BROAD
+    apart = any((one in a and another in b) or (one in b and another in a) for a, b in APART)
+    return apart or not broad

@@ -28,13 +28,16 @@ CIVIL = _listed(
     "archaeologist scientist researcher photographer journalist postman postwoman mailman courierman driver motorist "
     "passenger motorcyclist pedestrian passerby bystander commuter festivalgoer spectator participant competitor "
     "contestant racer golfer player athlete hunter beekeeper vet stockman cowboy drover contractor volunteer soul "
-    "stranger individual parishioner member"
+    "stranger individual parishioner member soldier corporal private sapper patroller trooper gunner infantryman "
+    "rifleman paratrooper serviceman servicewoman veteran bandsman actor actress extra stagehand stuntman "
+    "cameraman dancer singer musician roadie attendee delegate exhibitor tripper evacuee refugee"
 )
 """Whoever may be lost."""
 HELPERS = _listed(
     "marshal steward warden ranger guide scout cub lifeguard guard officer policeman policewoman constable soldier "
     "recruit cadet airman firefighter fireman paramedic medic nurse doctor carer caretaker teacher leader instructor "
-    "supervisor manager foreman captain pilot observer searcher rescuer operator dispatcher coordinator boss "
+    "supervisor manager foreman captain pilot observer searcher sergeant lieutenant major operator dispatcher "
+    "coordinator boss "
     "chief priest guardian crewman crewmember adult male female minor party subject individual baby pal mate buddy "
     "elder one sapper trooper gunner private corporal sergeant lieutenant captain major colonel rifleman marine seaman "
     "patroller lifeboatman waiter waitress chef cook baker butcher bartender barista receptionist cleaner housekeeper "
@@ -85,7 +88,10 @@ _N = (
     "eight|nine))?|two|three|four|five|six|seven|eight|nine|ten|eleven|twelve|thirteen|fourteen|fifteen|sixteen|"
     "seventeen|eighteen|nineteen)"
 )
-_AGE = f"(?:(?:age|aged) {_N}|{_N} (?:years?|yrs?|months?) old|{_N} (?:years|yrs) of age|{_N} yo)"
+_AGE = (
+    f"(?:(?:age|aged|of|about|around) (?:about |around )?{_N}(?: years)?|"
+    f"{_N} (?:years?|yrs?|months?) old|{_N} (?:years|yrs) of age|{_N} yo)"
+)
 _DECADES = "(?:teens|twenties|thirties|forties|fifties|sixties|seventies|eighties|nineties)"
 _WHOSE = "(?:his|her|their)"
 _SEX = "(?:(?:a |an )?(?:(?:white|elderly|young|adult|middle aged|frail|old) )*(?:male|female|adult))"
@@ -97,16 +103,28 @@ _AGENT = (
     "carer|carers|nurse|desk|office|partner|relatives|relative|owner|keeper|leader|team|companions|club|coastguard|"
     "lifeguard|reception|receptionist|organiser|organisers|supervisor|foreman|home|public)"
 )
+_COLOUR = (
+    "(?:(?:bright |dark |light |pale )?(?:red|blue|green|yellow|orange|white|black|grey|gray|brown|pink|purple|beige|"
+    "navy|hi vis|high vis|khaki|camouflage|checked|striped|denim|fluorescent))"
+)
+_CLOTHES = (
+    "(?:jacket|coat|shirt|t shirt|jumper|sweater|hoodie|hat|cap|trousers|jeans|shorts|dress|skirt|anorak|vest|top|"
+    "tunic|uniform|overalls|raincoat|scarf|clothing|clothes|cardigan|rucksack|backpack|beanie|helmet|boots)"
+)
 REPORTED = f"(?:reported|as reported|reported as|called in)(?: (?:missing|lost|overdue))?(?: by {_AGENT})?"
 YEARS_OLD = rf"{_N} (?:years?|yrs?) old"
 TAILS: tuple[str, ...] = (
     "of (?:ours|mine|yours|theirs)",
     f"in {_WHOSE} (?:early |mid |late )?{_DECADES}",
     f"(?:[,(-] )?{_AGE}",
-    f"[,(-] {_SEX}(?: in {_WHOSE} (?:early |mid |late )?{_DECADES})?(?: (?:, )?(?:{_N}|{_AGE}))?",
+    f"[,(-] {_SEX}(?: in {_WHOSE} (?:early |mid |late )?{_DECADES})?(?: (?:, )?(?:(?:about |around |roughly |"
+    f"approximately |approx |nearly |some )?{_N}|{_AGE}))?",
     f"[,(-] {_N} (?:, )?(?:male|female)",
     f"(?:[,(-] )?(?:is )?{REPORTED}",
     "[,(-] (?:mr|mrs|ms|miss|dr)(?: \\.)? [a-z]+",
+    f"[,(-] (?:wearing |in |dressed in |last seen wearing |last seen in )?(?:a |an )?{_COLOUR} {_CLOTHES}(?: and "
+    "(?:a |an )?"
+    f"(?:{_COLOUR} )?{_CLOTHES})?",
     "(?:called|named|by the name of) [a-z]+",
 )
 """What may follow a person, one after the other, and goes with them."""
@@ -135,3 +153,40 @@ NO_SLIPS: frozenset[str] = frozenset(
     )
 )
 """Words that would be slips of these names, were they not words."""
+
+
+_MEN = frozenset(
+    _listed(
+        "man guy gentleman fellow chap bloke boy lad laddie son brother father dad daddy husband grandson grandfather "
+        "grandpa grandad granddad gramps uncle nephew stepson stepfather boyfriend fiance schoolboy policeman horseman"
+    )
+)
+_WOMEN = frozenset(
+    _listed(
+        "woman lady girl lass lassie daughter sister mother mum mom mummy mommy wife granddaughter grandmother grandma "
+        "granny nan nana gran aunt auntie niece stepdaughter stepmother girlfriend fiancee schoolgirl policewoman "
+        "horsewoman"
+    )
+)
+_YOUNG = frozenset(
+    _listed(
+        "boy girl child kid toddler infant youngster teenager teen adolescent lad lass laddie lassie schoolboy "
+        "schoolgirl "
+        "schoolchild pupil baby"
+    )
+)
+_GROWN = frozenset(
+    _listed(
+        "man woman guy gentleman lady bloke husband wife mother father mum mom mummy mommy dad daddy grandmother "
+        "grandfather "
+        "grandma grandpa granny grandad granddad gran gramps nan nana uncle aunt auntie pensioner senior retiree"
+    )
+)
+APART: tuple[tuple[frozenset[str], frozenset[str]], ...] = ((_MEN, _WOMEN), (_YOUNG, _GROWN))
+"""Nouns of the one kind and of the other are two people."""
+BROAD: frozenset[str] = frozenset(
+    _listed(
+        "man woman boy girl child kid guy lady gentleman fellow chap bloke soul individual youngster lad lass thing"
+    )
+)
+"""Nouns that may say again who was named by another one."""

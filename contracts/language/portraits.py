@@ -159,8 +159,8 @@ def _said(tokens: list[Token], first: int, after: int) -> str:
 @cache
 def _compiled(table: str) -> re.Pattern[str]:
     gone, since, very = (CLASSES[name] for name in ("gone", "since", "very"))
-    who = f"(?:, )?(?:who|that) (?:(?:{very}) )*(?:{gone})(?: (?:{since}))*"
-    astray = f"(?:, )?(?:who's|that's) (?:(?:{very}) )*(?:{CLASSES['astray']})(?: (?:{since}))*"
+    who = f"(?:, )?(?:who|that|which) (?:(?:{very}) )*(?:{gone})(?: (?:{since}))*"
+    astray = f"(?:, )?(?:who's|that's|which's) (?:(?:{very}) )*(?:{CLASSES['astray']})(?: (?:{since}))*"
     tables = {
         "tails": "|".join((*TAILS, who, astray)),
         "aged": f"{YEARS_OLD}|{YEARS_OLD} old",

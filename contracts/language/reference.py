@@ -141,10 +141,11 @@ def participles(pieces: list[Piece]) -> None:
     """A past form asks for something only in a passive (`must be searched`) or after `once`."""
     for at, piece in enumerate(pieces):
         auxiliary = pieces[at - 1] if at and pieces[at - 1].role is Role.BE else None
-        if piece.is_action and piece.form is Form.ING and auxiliary is not None and auxiliary.norm == "be":
+        wished = any(p.role is Role.FILLER and p.norm.endswith(" that") for p in pieces[:at])
+        lasting = auxiliary is not None and (auxiliary.norm == "be" or (wished and auxiliary.norm in ("is", "are")))
+        if piece.is_action and piece.form is Form.ING and auxiliary is not None and lasting:
             auxiliary.become(Role.FILLER)  # "must be searching"
         if piece.is_action and piece.form is Form.PAST:
-            wished = any(p.role is Role.FILLER and p.norm.endswith(" that") for p in pieces[:at])
             passive = auxiliary is not None and (auxiliary.norm in ("be", "were") or wished)
             if _found(pieces, at):
                 piece.become(Role.FILLER)

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 
+from crew.contracts.language.afield import AFIELD
 from crew.contracts.language.endings import endings
 from crew.contracts.language.entry import Words, stands_all
 from crew.contracts.language.figures import is_numeral, with_commas
@@ -34,9 +35,11 @@ from crew.contracts.language.spoken import spoken
 from crew.contracts.language.staying import staying
 from crew.contracts.language.tokens import Shape, Token
 from crew.contracts.language.told import told
+from crew.contracts.language.words import PLACE_NOUNS
 
 Wordings = Mapping[str, Sequence[tuple[Words, Words]]]
 _GRABBED: tuple[Words, ...] = (("grab",), ("pick", "up"), ("get",), ("go", "get"), ("take",))
+_OVER = frozenset(("back", "over", "out", "along", "across", "up", "down", "on", "straight"))
 _ARROW_MARKS = frozenset("-=>")
 _WAITED: Wordings = {
     first: tuple((words, ("go", "to")) for words in WAITING if words[0] == first) for first in {w[0] for w in WAITING}
@@ -49,7 +52,7 @@ def rewritten(tokens: list[Token], lexicon: Lexicon) -> list[Token]:
     at = 0
     tokens = findings(restated(with_commas(tokens), lexicon), lexicon)
     tokens = spoken([t for k, t in enumerate(tokens) if not _hesitation(tokens, k, lexicon)], lexicon)
-    for wordings_with_names in (MOVES, WALKS, PLAINER):
+    for wordings_with_names in (MOVES, WALKS, PLAINER, AFIELD):
         tokens = replaced(tokens, wordings_with_names, lexicon)
     tokens = told(tokens, lexicon)
     tokens = heights(staying(endings(tokens, lexicon), lexicon), lexicon)
@@ -137,7 +140,7 @@ def _before_goal(tokens: list[Token], at: int, lexicon: Lexicon) -> tuple[int, W
     """`respond to 7.5, 1.5`: wordings that hold only before a place's name or a point."""
     for words, plain in wordings_before_goals().get(tokens[at].norm, ()):
         end = at + len(words)
-        figures = end < len(tokens) and (is_numeral(tokens, end) or tokens[end].norm in ("x", "(", "point"))
+        figures = end < len(tokens) and (is_numeral(tokens, end) or tokens[end].norm in ("x", "(", *PLACE_NOUNS))
         if stands_all(tokens, at, words) and figures:
             return len(words), plain
     return _before_name(tokens, at, lexicon, wordings_before_goals(), MentionKind.LOCATION)
@@ -174,7 +177,17 @@ def _moved_robot(tokens: list[Token], at: int, lexicon: Lexicon) -> tuple[int, W
     name, end = named(tokens, at + 1, lexicon)
     if name is None or name.kind not in ROBOT_KINDS:
         return None
-    end += end < len(tokens) and tokens[end].norm in ("back", "over")
+    end += end < len(tokens) and tokens[end].norm in (
+        "back",
+        "over",
+        "out",
+        "along",
+        "across",
+        "up",
+        "down",
+        "on",
+        "straight",
+    )
     leads = ("to", "here") if summoned else LEADS_ON
     return (1, ("send",)) if end < len(tokens) and tokens[end].norm in leads else None
 

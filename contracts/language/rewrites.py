@@ -175,6 +175,7 @@ LEADS_ON: frozenset[str] = frozenset(("to", "at", "here", "into", "in"))
 """What opens that goal."""
 SENDING: frozenset[str] = frozenset((
     "recall", "redirect", "reroute", "divert", "transfer", "shift", "steer", "manoeuvre", "maneuver", "shuttle", "pull",
+    "run", "walk", "roll", "trundle", "scoot", "zip", "nip", "jog", "march", "swing", "hop", "whizz",
     "withdraw", "summon", "call", "assign", "pilot", "usher",
 ))  # fmt: skip
 """The same, where the goal opens with `to` or `here`: `recall the rover at base` may be no order at all."""

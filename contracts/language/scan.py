@@ -196,12 +196,16 @@ class Scanner(Asides):
     def _counts(self, at: int) -> bool:
         """Whether `one` before this place is an article."""
         name = self._name(at)
-        return name is not None and not name.plural and name.kind in (*ROBOT_KINDS, MentionKind.OBJECT)
+        return (
+            name is not None and not name.plural and name.kind in (*ROBOT_KINDS, MentionKind.OBJECT, MentionKind.VALUE)
+        )
 
     def _pointed_at(self, at: int) -> bool:
         """Whether `that` before this place points at a thing (`I need that bottle`) and opens no clause."""
         name = self._name(at)
         if name is None or name.kind is MentionKind.ACTION or self._action(at) is not None:
+            return False
+        if norm_at(self.tokens, at + len(name.words)) in _CLAUSED:
             return False
         verb = self._action(at + len(name.words))
         return verb is None or verb.form is Form.PAST
@@ -223,7 +227,7 @@ class Scanner(Asides):
         if entry.role is not Role.MENTION:
             return entry
         previous = self.pieces[-1].role if self.pieces else None
-        named = previous in _NAME_FOLLOWS
+        named = previous in _NAME_FOLLOWS or (bool(self.pieces) and self.pieces[-1].norm in AFFECTIVE)
         if entry.kind is MentionKind.ACTION:
             return self._namesake(entry, at, MentionKind.ACTION) if named else entry
         if not named and len(entry.words) > 1 and entry.kind not in ROBOT_KINDS:
@@ -281,6 +285,7 @@ class Scanner(Asides):
 
 _MODIFIERS = frozenset(("right", "like", "fine", "good", "great", "cool", "perfect", "quick"))
 """Openers that would belong to a name that follows at once."""
+_CLAUSED = frozenset(("is", "are", "shall", "should", "must", "will"))
 _NEVER_NAMES = ADVERBS | frozenset(SELF_WORDS)
 _NAME_FOLLOWS = frozenset(
     (Role.DETERMINER, Role.QUANTIFIER, Role.TO, Role.AT, Role.OVER, Role.NEAR, Role.FROM, Role.OF)

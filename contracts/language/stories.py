@@ -77,11 +77,22 @@ CLASSES: dict[str, str] = {
     "has got himself lost|got himself lost|got herself lost|has strayed|has not reported in|hasn't reported in|"
     "has not checked in|hasn't checked in|did not check in|didn't check in|walked out|has walked out|slipped away|"
     "has slipped away|has wandered away|wandered away|has wandered out|wandered out|went out walking|"
-    "went out for a walk|went for a walk|is out there somewhere|"
+    "went out for a walk|went for a walk|is out there somewhere|did not report in|didn't report in|failed to report in|"
+    "has failed to report in|missed his check in|missed her check in|missed a check in|has missed his check in|"
+    "has missed her check in|is not answering|isn't answering|does not answer|doesn't answer|is out of contact|"
+    "has lost contact|lost contact|is not responding|isn't responding|is not picking up|isn't picking up|"
+    "did not report|didn't report|did not report back|didn't report back|has not reported back|"
+    "hasn't reported back|did not arrive|didn't arrive|never arrived|got separated|has got separated|fell behind|"
+    "has been injured|got hurt|is hurt|is injured|has had a fall|had a fall|has fallen|fell|is in trouble|needs help|"
+    "is in need of help|"
     "lost|missing|walked off|has walked off|lost his way|lost her way|has lost his way|has lost her way|strayed",
     "astray": "lost|missing|overdue|gone|gone missing|disappeared|vanished|wandered off|been missing|been gone|"
     "not back|not back yet|not come back|not returned|still out there|still missing|hurt|injured|unaccounted for|"
-    "got lost|run off|walked off|strayed|in trouble",
+    "got lost|run off|walked off|strayed|in trouble|out of contact|not answering(?: <phone>)?|not picking up(?: "
+    "<phone>)?|"
+    "not responding(?: <phone>)?|not reachable|unreachable|not been seen|not been heard from|not checked in|"
+    "not reported in|needing help|fallen|had a fall|not himself|not herself|not well|unwell",
+    "phone": "(?:his|her|their|the) (?:phone|radio|mobile|calls|cell|telephone|handset|messages|texts)",
     "age": "[0-9]{1,3}|[0-9]{1,3} years old|" + YEARS_OLD + "|a child|a pensioner|an elderly man|an elderly woman|"
     "an old man|an old lady|elderly|old|frail|confused|diabetic|my (?:<people>)|our (?:<people>)",
     "since": "out there|there|over there|somewhere|somewhere out there|this morning|last night|yesterday|"
@@ -93,6 +104,8 @@ CLASSES: dict[str, str] = {
     "since sunrise|since dusk|since yesterday evening|since this afternoon|since the morning|"
     "from (?:his|her|their|a|the|its) (?:walk|hike|run|ride|swim|shift|trip|round|rounds|patrol|stroll|ramble|group|"
     "party|family|friends|class|tour|excursion|outing|hike today)|"
+    "from (?:his|her|their|a|the) (?:bench|garden|path|trail|track|tent|car|bus|campsite|hotel|playground|picnic|"
+    "ward|room|car park|house|bed|porch|stand|queue|line|troop|patrol|unit|platoon|squad|school|barbecue|fair)|"
     "on (?:his|her|their|a|the) (?:walk|hike|run|ride|shift|round|rounds|stroll|trail|path|way back)|"
     "by (?:his|her|their|the) (?:wife|husband|family|friends|mother|father|parents|colleagues|neighbours|carer)|"
     "(?:[0-9]+|an|one|two|three|four|five|six|a few|several) (?:hour|hours|days|day|minutes) ago|(?:for|since) (?:a|"
@@ -195,7 +208,7 @@ ABOUT_A_PERSON: tuple[str, ...] = (
     "(?:<whose> )?(?:<poor> )*<person> (?:<very> )?<gone>(?: since)?(?: <since>)*",
     "(?:we|i|they|we've|i've|they've|<whose> (?:<poor> )*<person>) <lost> <whose> (?:<poor> )*<person>(?: <since>)*",
     "(?:someone|somebody) (?:<gone>)(?: <since>)*",
-    "(?:someone|somebody)'s (?:<very> )?(?:<astray>)(?: <since>)*",
+    "(?:someone|somebody|(?:<whose> )?(?:<poor> )*<person>) 's (?:<very> )*(?:<astray>)(?: <since>)*",
     "(?:one|a member) of (?:my|our|the|his|her|their|these) (?:<poor> )*<persons> (?:<gone>)(?: <since>)*",
     "(?:he|she|they) (?:<gone>)(?: <since>)*",
     "(?:he's|she's|they're|they've|he has|she has|they have|he is|she is|they are) (?:<very> )*(?:<astray>)(?: "

@@ -234,12 +234,13 @@ NICKNAMES: dict[str, tuple[str, ...]] = {
     "robot": ("bot", "droid"),
     "drone": (
         "uav", "helicopter", "chopper", "quadrocopter", "multicopter", "aircraft", "flyer", "aerial vehicle",
-        "flying machine", "flying robot", "flying thing", "flying camera", "flying one",
+        "flying machine", "flying robot", "flying thing", "flying device", "flying camera", "flying one",
+        "flying contraption", "air robot", "flying vehicle", "flying gadget", "whirlybird", "flying bot",
     ),
     "rover": (
         "buggy", "ground vehicle", "ground unit", "wheeled robot", "ground robot", "rover car", "rover robot",
         "rover vehicle", "wheeled one", "one on wheels", "wheeled vehicle", "wheeled machine", "driving robot",
-        "driving one", "robot car",
+        "driving one", "robot car", "robot buggy", "driving machine", "rolling robot",
     ),
     "humanoid": (
         "android", "two legged robot", "two legged one", "robot with two legs", "one with two legs", "big robot",

@@ -149,6 +149,32 @@ tb3, this is site office, return to base, out
 base to rover, return to base
 """,
 }
+AFIELD = {
+    "search the north half and send the rover to the hiker": """
+search the north half, rover to close on the casualty when located
+search the northern half of the grounds and have the rover meet the casualty
+drone is to search the north half and after, rover makes the way to the lost woman
+missing toddler, age three, red jacket. Drone to search the north half, rover to go to the child when found.
+run a drone search over the north half for the patroller who didn't report in, and get the rover to her when found
+""",
+    "search the north half": """
+let that little flying machine have a look round the northern half for the poor soul who's gone missing
+make the drone to fly over the north half for find the person that is lost, please
+would you mind having the drone look over the north for my missing colleague, please?
+I want that drone is searching the north half
+""",
+    "search the whole area": "search the whole place\nsearch all of the grounds\nhave a look round the whole property",
+    "send the rover to (7, 7)": """
+set the TurtleBot a goal at (7, 7) and let it drive there
+unit tb3, respond to coordinates 7, 7
+run the rover over to seven comma seven
+""",
+    "land the drone and stop the rover": """
+I'm ending this run. Land the drone and bring the rover to a stop.
+that's it um we're done lads land the drone and uh stop the rover as well
+end the mission: drone down, rover halted
+""",
+}
 NOT_CARRIED_OUT = """
 search the north half and tell the hiker
 search the north half and tell my brother
@@ -254,7 +280,16 @@ search the north half flying below 6 metres
 search the north half, flying at least at 6 metres
 search the north half, hover at 6 metres when found
 rover go to 6 metres, drone search the north half
-send the rover to three comma four
+send the rover to minus three comma four
+search the north half at altitude three comma five
+send the rover to three comma four and search the north half
+send the rover to the soldier which is lost
+search the whole park
+search the north half of the village
+rover, reach the hiker and come back
+find the man and send the rover to the woman
+find the boy and send the rover to the man
+find my son and send the rover to my daughter
 send the rover to three comma
 send the rover to position three comma four comma minus five
 this is a test, search the north half
@@ -298,6 +333,10 @@ def test_a_robot_that_stays_is_left_out_or_stopped(rules: Rules) -> None:
 
 def test_everything_ends_by_any_word(rules: Rules) -> None:
     assert as_plain(ENDING, rules) == []
+
+
+def test_what_is_said_of_the_field_is_read(rules: Rules) -> None:
+    assert as_plain(AFIELD, rules) == []
 
 
 def test_a_height_and_a_point_are_read_as_they_are_spoken(rules: Rules) -> None:
