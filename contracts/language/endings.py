@@ -117,7 +117,7 @@ def _parted(tokens: list[Token], lexicon: Lexicon) -> list[Token]:
             break
         at = said.spans[end - 1][1]
         ends.append(at)
-        while at < len(tokens) and tokens[at].norm in _CALLED:
+        while at < len(tokens) and tokens[at].norm in (*_CALLED, ","):
             at += 1
     verb = match(lexicon.names, tokens, at) if ends and at < len(tokens) else None
     if verb is None or not any(r.contract in lexicon.preempting for r in verb.means):
