@@ -165,9 +165,11 @@ def _harmless(tokens: list[Token], clause: Clause, lexicon: Lexicon, kept: dict[
     said = said_between(tokens, clause.first, clause.after)
     if not said:
         return None
+    whole = range(clause.start, clause.after)
+    if is_over(tokens, clause.first, clause.after, lexicon):
+        return whole
     if clause.whole and said in framing():
         return None
-    whole = range(clause.start, clause.after)
     if fits(HARMLESS, said) and not _names(tokens, clause, lexicon, but=MentionKind.VALUE):
         return whole
     purpose = (clause.whole or tokens[clause.start].norm == "for") and fits(
@@ -184,8 +186,6 @@ def _harmless(tokens: list[Token], clause: Clause, lexicon: Lexicon, kept: dict[
     if clause.whole and fits(ENDEARED, said) and not _names(tokens, clause, lexicon):
         return whole
     if fits((*WANTED_FOR, *CALLING), said) and not _names(tokens, clause, lexicon, but=MentionKind.VALUE):
-        return whole
-    if is_over(tokens, clause.first, clause.after, lexicon):
         return whole
     value = _person(lexicon)
     if value and fits(ABOUT_A_PERSON, said) and not _names(tokens, clause, lexicon, but=MentionKind.VALUE):
