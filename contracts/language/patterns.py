@@ -4,8 +4,8 @@
 for a noun of whoever asks, `{owner}` for a robot's possessive, `{giver}` for a robot that hands things over,
 `{carrier}` for one with a tray, `{flier}` and `{driver}` for one that takes off or stops, `{zone}`, `{person}` and
 `{height}` for these, `{it}` a pronoun, `{done}` and `{doing}` for such a form of one of the crew's verbs; in the
-plainer words these two are the verb itself. `^` and `$` are where a clause begins and ends, `^^` and `$$` where the request
-does.
+plainer words these two are the verb itself. `^` and `$` are where a clause begins and ends, `^^` and `$$` where the
+request does.
 """
 
 import re
