@@ -65,6 +65,7 @@ _WHOLE: tuple[str, ...] = (
     f"{_HAIL}{_STATION} (?:speaking|calling|here)",
     f"{_HAIL}(?:from )?{_PLAIN_STATION}{_SPEAKS}",
     f"{_HAIL}{_STATION} (?:{_TO} {_CREW}|from {_STATION})",
+    f"{_SPELLED}(?: {_SPELLED})?(?: {_NUMBER}){{1,3}}",
     f"{_HAIL}{_CREW}(?: (?:from|this is) {_STATION}{_SPEAKS})?",
     f"(?:calling|message (?:to|for)|orders? (?:to|for)|instructions? (?:to|for)|to|attention|for|hello|dear) {_CREW}",
     "(?:calling|attention) (?:all |both )?robots",

@@ -137,7 +137,7 @@ def _parts_of(tokens: list[Token], whole: Clause) -> Iterator[Clause]:
     """What joining words part a clause into; nothing where there are none."""
     cuts = [k for k in range(whole.start + 1, whole.after) if _joins(tokens, k)]
     if tokens[whole.start].norm == "for":  # "for the demo I need ..."
-        asks = (k for k in range(whole.start + 2, min(whole.start + 7, whole.after)) if tokens[k].norm in _ASKS)
+        asks = (k for k in range(whole.start + 2, min(whole.start + 10, whole.after)) if tokens[k].norm in _ASKS)
         cuts = sorted({*cuts, *islice(asks, 1)})
     for start, after in pairwise((whole.start, *cuts, whole.after)):
         if (start, after) != (whole.start, whole.after):

@@ -62,6 +62,10 @@ def restated(tokens: list[Token], lexicon: Lexicon) -> list[Token]:
 def _again(tokens: list[Token], at: int, lexicon: Lexicon) -> tuple[list[Token], int] | None:
     """The name that follows in other words, and where it is over."""
     name = match(lexicon.names, tokens, at)
+    if name is not None and (shown := _one_of_that_kind(tokens, at, name, lexicon)) is not None:
+        return tokens[at : at + len(name.words)], shown
+    if (again := _verb_again(tokens, at, lexicon)) is not None:
+        return [], again
     if (twice := _called_twice(tokens, at, name)) is not None:
         return [], twice
     begin = at + (1 if name is None or name.kind is MentionKind.ACTION else len(name.words))
@@ -82,6 +86,33 @@ def _again(tokens: list[Token], at: int, lexicon: Lexicon) -> tuple[list[Token],
     closed = after < len(tokens) and tokens[after].norm in (",", "-", ")") and begin < second
     told = closed and after + 1 < len(tokens) and tokens[after + 1].norm in SPEAKS  # "..., I'm over here"
     return tokens[named:end], after + (closed and not told)
+
+
+def _one_of_that_kind(tokens: list[Token], at: int, name: Entry, lexicon: Lexicon) -> int | None:
+    """Where `the cube, the red one,` is over: the adjective is one that another of its names has."""
+    after = at + len(name.words)
+    if name.kind is MentionKind.ACTION or name.plural or len(name.values) != 1 or after >= len(tokens):
+        return None
+    the = after + (tokens[after].norm in _MARKS)
+    said = [t.norm for t in tokens[the : the + 3]]
+    others = (e for found in lexicon.names.values() for e in found if e.values == name.values and len(e.words) > 1)
+    if len(said) < 3 or said[0] != "the" or said[2] != "one" or said[1] not in {e.words[0] for e in others}:
+        return None
+    end = the + 3
+    return end + (end < len(tokens) and tokens[end].norm == "," and the > after)
+
+
+def _verb_again(tokens: list[Token], at: int, lexicon: Lexicon) -> int | None:
+    """Where the second verb of `land it, I mean land the drone` begins."""
+    if at + 1 >= len(tokens) or tokens[at + 1].norm not in _PRONOUNS:
+        return None
+    second, links = _past_links(tokens, at + 2)
+    same = second < len(tokens) and tokens[second].norm == tokens[at].norm and second > at + 2
+    verbs = lexicon.names.get(tokens[at].norm, ())
+    name_at = _past_opening(tokens, second + 1, at, None)
+    named = match(lexicon.names, tokens, name_at) if name_at < len(tokens) else None
+    known = same and bool(links - {_OR}) and any(e.kind is MentionKind.ACTION for e in verbs)
+    return second if known and named is not None and named.kind is not MentionKind.ACTION else None
 
 
 def _called_twice(tokens: list[Token], at: int, name: Entry | None) -> int | None:

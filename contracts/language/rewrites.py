@@ -26,6 +26,9 @@ REWRITES: tuple[tuple[str, str], ...] = (
     ("see if you (can|could)", "please"),
     ("(can|could|would|will) (u|ya)", "can you"),
     ("ever so", "so"),
+    ("(would you|do you|will you) mind (having|letting)", "please let"),
+    ("(i'd|i would|we'd|we would) (appreciate|like|love) having", "please have"),
+    ("(come|comes|coming) to a (stop|halt|standstill|full stop)", "stop"),
     *(
         (f"(i'm|i am|we're|we are) afraid (|that ){who}", who)
         for who in ("i", "i'm", "i am", "we", "we're", "my", "i've")
@@ -110,7 +113,7 @@ REWRITES: tuple[tuple[str, str], ...] = (
     ),
     ("(whoever|whomever) is (out there|in there|over there)", "whoever is there"),
     ("(move|get|bring|take|drive) (yourself|itself|himself|yourselves) to", "go to"),
-    ("to (that|this|the same) (position|location|spot|place|point)", "there"),
+    ("(to|over to|into) (that|this|the same) (position|location|spot|place|point|room|table|area|station)", "there"),
     ("(follow|follow on|come along|come up|move up|close up) to", "go to"),
     ("(i|we) require", "i need"),
     ("require", "need"),
@@ -135,6 +138,8 @@ REWRITES: tuple[tuple[str, str], ...] = (
 """What is said, and what it is read as."""
 
 BEFORE_A_PLACE: tuple[tuple[str, str], ...] = (
+    ("(over|down|up|out|away) (in|at|on)", "in"),
+    ("(destination|destination is|going to|bound for|destined for|addressed to|drop at)", "to"),
     ("(you're|you are) (going|headed|heading|off|bound|to go) (to|for)", "go to"),
     ("(standing|waiting|parked|positioned|stationed|sitting|ready|placed|stood) (at|in|by|on)", "at"),
     ("(down|up|back down|back up|home|back home|on home|off|on down) to", "to"),
@@ -181,6 +186,7 @@ SENDING: frozenset[str] = frozenset((
 """The same, where the goal opens with `to` or `here`: `recall the rover at base` may be no order at all."""
 
 BEFORE_AN_OBJECT: tuple[tuple[str, str], ...] = (
+    ("(item|cargo|package|parcel|consignment|freight)", "the"),
     ("(is|are) (waiting for|waiting on|expecting|out of)", "needs"),
     ("(has been|have been) (asking for|waiting for|calling for)", "needs"),
     ("(might|may|can|could) (i|we) (have|get|please have|please get|just have|just get|possibly have)", "could i have"),
@@ -206,6 +212,7 @@ BEFORE_AN_OBJECT: tuple[tuple[str, str], ...] = (
 """The same, only in front of an object's name."""
 
 BEFORE_A_ZONE: tuple[tuple[str, str], ...] = (
+    ("(over|down|up|out|away) (in|at|on)", "in"),
     ("fly (the|our)", "search the"),
     ("(anywhere|all about|all around|any place) (on|in|within|over|across)", "in"),
     ("(|i need |we need |i want |we want |get |put |give me |keep )eyes (on|over|above)", "search"),

@@ -28,8 +28,10 @@ _BY = (
     "away from|far from|far away from|a long way from|on the other side of)"
 )
 _LOOSE = (
-    "right|just|still|already|now|currently|over|back|up|down|out|all|away|far|far away|close|close by|near|nearby|"
-    "alone|and|comfortably|quite|very|only|way|through|waiting|sitting|standing|seated|lying|resting|working|stuck|stood|sat|"
+    "right|just|directly|still|already|now|currently|over|back|up|down|out|all|away|far|far away|close|close by|"
+    "near|nearby|"
+    "alone|and|comfortably|quite|very|only|way|through|waiting|sitting|standing|seated|lying|resting|working|stuck|"
+    "stood|sat|"
     "sitting down|standing up|lying down|reading|too far|too far away|a bit|a little|rather|so|really|thirsty|parched|"
     "beside|alongside|tied up|caught up|held up|engaged|occupied|(?:tied up|busy|stuck|caught up|engaged) with "
     f"{_THING}|hungry|tired|cold|stuck|busy|exhausted|comfortable|cosy|not well|unwell|ill|poorly"
@@ -42,7 +44,7 @@ _HERE = (
     "ready to take it|ready for it|in position|in place"
 )
 _AT = (
-    f"(?:{_BY} (?:you|(?:(?:the|a|your|that|this|our) (?:[a-z]+ )?)?@robot|(?:the |a )?@place|{_THING}|"
+    f"(?:{_BY} (?:you(?: @robot)?|(?:(?:the|a|your|that|this|our) (?:[a-z]+ )?)?@robot|(?:the |a )?@place|{_THING}|"
     "(?:his|its) side)"
     f"|{_IN}|(?:at|on|in|by) {_SIDE}(?: of (?:the |a |this |that )?(?:@robot|@place|{_NOUN}(?: {_NOUN})?))?"
     "|(?:down|up|along) (?:the |a )?(?:hall|corridor|hallway|passage|stairs|landing)"

@@ -164,6 +164,14 @@ HARMLESS: tuple[str, ...] = (
     "(?: (?:here|now|today|for today|for tonight|for now|for the day|lads|folks|everyone|everybody|with it|then|too))*",
     "(?:it's|it is) (?:one|two|three|four|five|six|late|early|midnight|the middle) (?:in the|at|of the) "
     "(?:morning|night|evening)",
+    "(?:with )?no (?:last )?(?:known )?(?:position|location|whereabouts|fix|details|description|further details|"
+    "more details|further information|other information|witnesses)",
+    "<my> <body>(?: 's| is| are) in (?:plaster|a cast|a sling|bandages|a splint|a bandage)",
+    "<my> <body> (?:won't|will not|can't|cannot) (?:carry|take|get) me(?: (?:over|up|down|out))? (?:there|that far|"
+    "anywhere)",
+    "bless (?:it|him|her|its heart|his heart|its little heart|you)",
+    "(?:it|he|she) (?:has|'s) (?:walked|worked|run|carried|been going|been walking)(?: quite| more than)? "
+    "(?:enough|a lot|far enough)(?: today| for today| now)?",
     "<my> legs (?:won't|will not|don't|do not|can't|cannot) (?:carry|take|hold|bear) me(?: (?:so|that|very|too|"
     "all that|"
     "as))?(?: far| long)?(?: any more| anymore| these days| now| today){0,2}",
@@ -230,7 +238,8 @@ _OCCASION = (
     "first part|next run|next step|next test|shoot|scene|take|broadcast|programme|presentation|tour|party|meeting|paper"
 )
 PURPOSES: tuple[str, ...] = (
-    f"for (?:the |our |my |a |an |this |today's |your |these |those )?(?:[a-z]+ ){{0,2}}(?:{_OCCASION})",
+    f"for (?:the |our |my |a |an |this |today's |your |these |"
+    f"those )?(?:[a-z]+ ){{0,2}}(?:{_OCCASION})(?: of (?:the |our |my )?(?:{_OCCASION}))?",
 )
 """Clauses that say on what occasion something is wanted."""
 

@@ -13,7 +13,7 @@ from crew.contracts.language.rewrites import ASSIGNING, DOWN_ON, LOWERING, RAISI
 from crew.contracts.language.tokens import Shape, Token
 from crew.contracts.language.words import AFFECTIVE
 
-_LAUNCH, _LAND, _TELL = "launch", "land", "tell"
+_LAUNCH, _LAND, _STOP, _TELL = "launch", "land", "stop", "tell"
 _DOWN = (("down",), ("back", "down"), ("to", "ground"), ("to", "the", "ground"))
 _ENDS_UP = frozenset(("and", "then", "to", "so", "please", "now"))
 _OPENS = frozenset(("and", "then", "please", "so", "or", "now"))
@@ -27,7 +27,7 @@ def told(tokens: list[Token], lexicon: Lexicon) -> list[Token]:
     out: list[Token] = []
     at = 0
     while at < len(tokens):
-        rules = (rule(tokens, at, lexicon) for rule in (_raised, _flown, _lowered, _bare, _tasked, _assigned))
+        rules = (rule(tokens, at, lexicon) for rule in (_raised, _flown, _lowered, _halted, _bare, _tasked, _assigned))
         words, plain = next((found for found in rules if found is not None), (1, tokens[at : at + 1]))
         out.extend(plain)
         at += words
@@ -98,6 +98,14 @@ def _bare(tokens: list[Token], at: int, lexicon: Lexicon) -> Rule | None:
         if climbs or (_ended(tokens, after) and not stands_all(tokens, after, ("?",))):
             return after - at, [_said(tokens[after - 1], verb), *tokens[at:end]]
     return None
+
+
+def _halted(tokens: list[Token], at: int, lexicon: Lexicon) -> Rule | None:
+    """`bring the rover to a stop`."""
+    if tokens[at].norm != "bring" or (end := _robot(tokens, at + 1, lexicon, _STOP)) is None:
+        return None
+    halted = any(stands_all(tokens, end, ("to", "a", how)) for how in ("stop", "halt", "standstill"))
+    return (end + 3 - at, [_said(tokens[at], _STOP), *tokens[at + 1 : end]]) if halted else None
 
 
 def _tasked(tokens: list[Token], at: int, lexicon: Lexicon) -> Rule | None:

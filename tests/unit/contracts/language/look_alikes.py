@@ -229,6 +229,9 @@ find the missing tool box
 search for the lost user manual
 send the drone to the rover driver
 put the rover over the north half
+land it, I mean the rover
+bring the rover to a garage
+search the north half over there in the east
 """
 
 INDOOR = """
@@ -840,4 +843,12 @@ room number C, dog
 put the cube on table number C
 send the dog to room number 7
 G1 place bottle table bravo or alpha
+take it, I mean the bottle or the cube, to room_a
+take the cube, the blue one, to room_a
+take the bottle, the red one, to room_a
+lift it, I mean leave the bottle
+bring the dog to a vet
+for the next patient take the bottle to room_a
+I'm right next to the table, the dog is not
+no bottle, in my hand
 """
