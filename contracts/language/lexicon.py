@@ -8,7 +8,7 @@ import msgspec
 
 from crew.contracts.contract import Contract, Step
 from crew.contracts.language.afield import afield_words
-from crew.contracts.language.entry import Entry, Words, stands, words_of
+from crew.contracts.language.entry import Entry, Words, words_of
 from crew.contracts.language.inflect import Form, inflections
 from crew.contracts.language.mention import MentionKind, StepRef
 from crew.contracts.language.naming import entities
@@ -34,12 +34,24 @@ from crew.contracts.site import Rules
 from crew.contracts.skill import Kind, Skill
 
 
+class Entries(tuple[Entry, ...]):
+    """The entries that begin with one word, the longest first."""
+
+    @cached_property
+    def by_length(self) -> tuple[tuple[int, dict[Words, Entry]], ...]:
+        """The first entry of each wording, by its number of words."""
+        table: dict[int, dict[Words, Entry]] = {}
+        for entry in self:
+            table.setdefault(len(entry.words), {}).setdefault(entry.words, entry)
+        return tuple(table.items())
+
+
 class Lexicon(msgspec.Struct, frozen=True, kw_only=True, dict=True):
     """The phrases of one crew by first word, longest first; within one length, names before function words."""
 
-    names: Mapping[str, tuple[Entry, ...]]
-    functions: Mapping[str, tuple[Entry, ...]]
-    special: Mapping[str, tuple[Entry, ...]]
+    names: Mapping[str, Entries]
+    functions: Mapping[str, Entries]
+    special: Mapping[str, Entries]
     """Function words that hold only before a fitting word (`start searching`, `have the drone land`)."""
     area: Zone
     reports: Mapping[str, str]
@@ -97,10 +109,14 @@ class Lexicon(msgspec.Struct, frozen=True, kw_only=True, dict=True):
         return function if len(function.words) > len(name.words) else name
 
 
-def match(table: Mapping[str, tuple[Entry, ...]], tokens: list[Token], at: int) -> Entry | None:
+def match(table: Mapping[str, Entries], tokens: list[Token], at: int) -> Entry | None:
     """The longest entry of a table that starts at a token."""
-    for entry in table.get(tokens[at].norm, ()):
-        if stands(tokens, at, entry.words):
+    found = table.get(tokens[at].norm)
+    if found is None:
+        return None
+    for length, of in found.by_length:
+        entry = of.get(tuple([t.norm for t in tokens[at : at + length]]))
+        if entry is not None:
             return entry
     return None
 
@@ -253,9 +269,9 @@ def _unique(entries: Iterable[Entry]) -> list[Entry]:
     return list(kept.values())
 
 
-def _index(entries: Iterable[Entry]) -> dict[str, tuple[Entry, ...]]:
+def _index(entries: Iterable[Entry]) -> dict[str, Entries]:
     table: dict[str, list[Entry]] = {}
     for entry in entries:
         if entry.words:
             table.setdefault(entry.words[0], []).append(entry)
-    return {first: tuple(sorted(found, key=lambda e: -len(e.words))) for first, found in table.items()}
+    return {first: Entries(sorted(found, key=lambda e: -len(e.words))) for first, found in table.items()}

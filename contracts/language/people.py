@@ -32,6 +32,9 @@ def people(pieces: list[Piece], tokens: list[Token], lexicon: Lexicon) -> list[A
         for piece in loose:
             piece.become_unknown(piece.first, piece.after)
         return []
+    none = [p for p in found if sought and not p.positive and _denied(pieces, p)]
+    if none:
+        return [Ambiguity("nobody may be missing", (tokens[none[0].first].start, tokens[none[0].after - 1].end))]
     goals = [p for p in found if p.direction is Direction.TO]
     two = [p for p in loose for other in found if _differ(p, other, said) and (p in goals or other in goals)]
     return [Ambiguity("two people may be meant", (tokens[p.first].start, tokens[p.after - 1].end)) for p in two[:1]]
@@ -54,6 +57,12 @@ def _not_sought(pieces: list[Piece], person: Piece, tokens: list[Token]) -> bool
         return False
     told = following is not beside or following.form is not Form.BASE
     return told or any(p.role is Role.DETERMINER for p in pieces[max(0, at - 1) : at]) or _caused(pieces, at)
+
+
+def _denied(pieces: list[Piece], person: Piece) -> bool:
+    """`there is no missing person`."""
+    link = before(pieces, pieces.index(person))
+    return link is not None and link.role is Role.NO
 
 
 def _caused(pieces: list[Piece], at: int) -> bool:

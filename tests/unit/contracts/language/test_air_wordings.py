@@ -228,6 +228,7 @@ send the rover to them
 send the rover to wherever you like
 search the north half, he's lost in the south half
 she's lost, or he is
+there is no missing person, search the area
 keep the rover where it is until I say so and search the north half
 search the north half, keep the rover 5 m away
 keep the rover moving and search the north half
