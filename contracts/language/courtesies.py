@@ -79,6 +79,9 @@ THANKS: tuple[str, ...] = (
     "(?:here|come on|go on) (?:boy|girl|doggy|doggie)(?: here boy)?",
     "(?:come on|go on|attaboy|attagirl|giddy up|hop to it|right you are)(?: then| now)?"
     "(?: boy| girl| lad| old boy| old girl| love| dear| mate| pal| buddy| now)?",
+    "(?:and )?(?:that's|that is|that'll be|that will be) (?:it|all|everything|the lot)(?: i need| i want| i ask|"
+    " we need|"
+    " i'm asking| for now| for today| from me| really| thanks| please| then| folks)*",
     "nice one|good stuff|lovely stuff|smashing|brilliant|lovely|wonderful|great stuff|marvellous|super|splendid|"
     "excellent|champion|good on you|good for you|fantastic|awesome|lovely jubbly|ta ra|cheerio|all the best|"
     "have a nice day|have a good day|have a good one|bye|bye bye|goodbye|good night|good day|greetings",

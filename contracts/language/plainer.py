@@ -58,6 +58,7 @@ PLAINER: tuple[tuple[str, str], ...] = (
     (f"{_WISH} (|to have ){{object}} (|put |placed |given |laid |set ){_MY_HAND}", "hand {object} to me"),
     (f"^ {_MAY} (i|we) (have|get) {{object}} {_MY_HAND}", "hand {object} to me"),
     *((f"^^ {{object}}{mark} (|here |here , |right ){_MY_HAND}", "hand {object} to me") for mark in ("", " ,", " .")),
+    (f"^ {_DRINK} for {{place}} $", "{place}"),
     (f"^ (need|want|would like|require) {{object}} {_MY_HAND}", "hand {object} to me"),
     (
         f"(hand|give|pass|bring|put|lay|place) (|to )me (|please )(in|into|to|on) (the|my) {_HAND} "

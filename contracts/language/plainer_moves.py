@@ -23,6 +23,13 @@ _LAID = (
 )
 
 MOVES: tuple[tuple[str, str], ...] = (
+    ("(off|away|back|over) (to|into) {place} with {it}", "send {it} to {place}"),
+    (
+        "{robot} (has|deserves|has well) (earned|done|worked|had|) (its rest|a rest|enough|hard|its keep|"
+        "a break|his rest|"
+        "hard enough|a good day's work|plenty|its break|her rest)(| today| now| for today| for one day) $",
+        "{robot}",
+    ),
     ("{object} (thing|thingy|thingie)", "{object}"),
     (
         "^ (shift|transfer|relocate|return|restore|switch|swap|slide|get back|bring back|take back) {object} "

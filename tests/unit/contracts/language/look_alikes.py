@@ -851,4 +851,16 @@ bring the dog to a vet
 for the next patient take the bottle to room_a
 I'm right next to the table, the dog is not
 no bottle, in my hand
+the dog is tired, off to the kitchen with it
+off to the charger with it tomorrow
+water for room C: load the bottle on go2 and take it through
+water for room B: load the hammer on go2 and take it through
+no water for room B: load the bottle on go2 and take it through
+that's all I need, the cube broken
+that is all wrong, put the cube on table B
+bottle, not into my hand
+bottle, into his hand
+the dog has earned its rest, so don't send it to the charger
+the dog has earned its rest in room A, not in room B, so send it
+the dog has done enough
 """
