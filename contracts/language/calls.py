@@ -12,6 +12,7 @@ from crew.contracts.language.lexicon import Lexicon
 from crew.contracts.language.mention import ROBOT_KINDS, MentionKind
 from crew.contracts.language.symbols import spelled
 from crew.contracts.language.tokens import Token
+from crew.contracts.language.words import word_set
 
 _LONGEST = 14
 _MARKS = frozenset(("-",))
@@ -95,6 +96,8 @@ def call(tokens: list[Token], first: int, after: int, closed_by: str, lexicon: L
     said = spelled(tokens[:after], first, lexicon, _naming, _LONGEST, _MARKS)
     if not said.spans or said.spans[-1][1] != after:
         return None
+    if any(_bears(t.norm) for t in tokens[first:after]):
+        return None  # "after lunch stage to crew", "I think control to rover"
     words = " ".join(said.words)
     if _compiled("whole").fullmatch(words):
         return range(first, after)
@@ -104,6 +107,21 @@ def call(tokens: list[Token], first: int, after: int, closed_by: str, lexicon: L
     if robots and _compiled("trailing").fullmatch(words):
         return range(said.spans[robots[-1]][1], after)
     return None
+
+
+def _bears(word: str) -> bool:
+    """Whether a word may say when, whether or how, and so is no part of a station's name."""
+    return word in _BEARING or word.endswith(("ly", "n't"))
+
+
+_BEARING = word_set(
+    "after before until till when whenever once while unless if whether tomorrow tonight today yesterday later "
+    "soon noon midnight lunch dinner breakfast tea minutes minute hours hour seconds maybe perhaps think guess "
+    "suppose believe wonder hope fear doubt said says told asked wants but or nor and as so because since "
+    "though although instead except without only just not no never i he she they at by in on with twice thrice "
+    "o'clock past test drill exercise joke kidding pretend wrong false wait stop wish slow fast later tea-time "
+    "during between within every each next last "
+)
 
 
 def _naming(name: Entry) -> str:

@@ -1,9 +1,16 @@
 """What could bear on a request, hidden in what people say around it: none of it may be passed over in silence."""
 
 REQUESTS = {
-    "air_ground": ("send the rover to base", "search the north half", "find the hiker and send the rover"),
-    "humanoid_quadruped": ("take the bottle to room_a", "put the cube on table_b", "send the dog to the charger"),
-}
+    "air_ground": (
+        "send the rover to base", "search the north half", "find the hiker and send the rover",
+        "control to rover: go to base",
+    ),
+    "humanoid_quadruped": (
+        "take the bottle to room_a", "put the cube on table_b", "send the dog to the charger",
+        "stage to crew: red cube to dropoff", "have the block set down on table_a",
+        "the dog is needed in room_b, send it over",
+    ),
+}  # fmt: skip
 JOINS = (
     "{c}, {r}", "{c}. {r}", "{r}, {c}", "{r}. {c}", "{c}, so {r}", "{c} so please {r}", "{r} because {c}", "{r} {c}",
     "{c} {r}",

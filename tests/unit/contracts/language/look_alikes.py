@@ -863,4 +863,12 @@ bottle, into his hand
 the dog has earned its rest, so don't send it to the charger
 the dog has earned its rest in room A, not in room B, so send it
 the dog has done enough
+after lunch stage to crew: red cube to dropoff
+I think stage to crew: red cube to dropoff
+perhaps but stage to crew: red cube to dropoff
+carefully but stage to crew: red cube to dropoff
+maybe lab to quadruped: go to room A
+after lunch control to quadruped: go to room A
+tomorrow ward to quadruped: go to room A
+after lunch lab to crew, send the dog to room A
 """
