@@ -36,6 +36,7 @@ AFIELD: tuple[tuple[str, str], ...] = (
     (f"(have|let|get|make|tell|ask) {{driver}} (|to ){_GOING} {{person}}", "send {driver} to {person}"),
     (f"(bring|get|take) {{driver}} to {_STOP}", "stop {driver}"),
     (f"{{driver}} (|to |should |must |shall |will )(come|comes) to {_STOP}", "stop {driver}"),
+    (f"(let|have|make|get|allow) {{driver}} (|to )come to {_STOP}", "stop {driver}"),
     ("^ {driver} (halted|stopped|at a stop|at a halt) $", "stop {driver}"),
     ("^ {flier} (landed|grounded) $", "land {flier}"),
     (

@@ -47,7 +47,7 @@ _ENDS: tuple[str, ...] = (
     "(?:bring|bringing|get|getting|pull|call|calling) (?:everything|everyone|everybody|them all|all of them|ROBOTS|"
     "both|"
     "them both|both of them|the robots|the lot)(?: both)?(?: back)? in",
-    "(?:get|have|make|want) (?:everything|it all) (?:stopped|ended|to stop|stop|to end)",
+    "(?:get|have|make|want|need|i need|we need|i want) (?:everything|it all) (?:stopped|ended|to stop|stop|to end)",
 )
 """Orders that end all."""
 _CALLS: tuple[str, ...] = (

@@ -273,7 +273,9 @@ class Scanner(Asides):
         name = self._name(self._past(at + 1, tuple(ARTICLES)))
         if token.norm == "off" and name is not None and name.kind is MentionKind.LOCATION:
             return Piece(at, at + 1, Role.FROM, norm=token.norm)  # "take the cube off the table"
-        if token.norm in ("one", "1") and self._counts(at + 1):
+        if token.norm in ("one", "1") and (
+            self._counts(at + 1) or (self._counts(at + 2) and norm_at(self.tokens, at + 1) in IN_NEED)
+        ):
             return Piece(at, at + 1, Role.DETERMINER, norm="a")
         if token.norm in ("he", "she", "it") and self.pieces and self.pieces[-1].is_robot:
             return Piece(at, at + 1, Role.FILLER)  # "the dog he must go"
