@@ -159,7 +159,8 @@ class Asides(Lookahead):
 
     def _quality(self, at: int) -> Piece | None:
         """`do a quick scan`: how well is not for the request to say."""
-        said = self.tokens[at].norm in QUALITIES and norm_at(self.tokens, at - 1) in ("a", "an", "another", "the")
+        opens = self._clause_begins(at) or norm_at(self.tokens, at - 1) in ("a", "an", "another", "the")
+        said = self.tokens[at].norm in QUALITIES and opens
         return Piece(at, at + 1, Role.FILLER) if said and self._action(at + 1) is not None else None
 
     def _down_on(self, at: int) -> Piece | None:
@@ -221,7 +222,9 @@ class Asides(Lookahead):
         start = self._past(at, ("up", "down"))
         noun = start + 2
         said = norm_at(self.tokens, start) in ("off", "from") and norm_at(self.tokens, start + 1) == "the"
-        if not said or noun >= len(self.tokens) or self._name(noun) is not None or not self._clause_ends(noun + 1):
+        if not said or noun >= len(self.tokens) or self._name(noun) is not None:
+            return None
+        if not (self._clause_ends(noun + 1) or norm_at(self.tokens, noun + 1) == "to"):
             return None
         many = [e for found in self.lexicon.names.values() for e in found if self.tokens[noun].norm in e.words]
         places = {e.values for e in many if e.kind is MentionKind.LOCATION}

@@ -168,10 +168,10 @@ def _harmless(tokens: list[Token], clause: Clause, lexicon: Lexicon, kept: dict[
     whole = range(clause.start, clause.after)
     if is_over(tokens, clause.first, clause.after, lexicon):
         return whole
-    if clause.whole and said in framing():
-        return None
     if fits(HARMLESS, said) and not _names(tokens, clause, lexicon, but=MentionKind.VALUE):
         return whole
+    if clause.whole and said in framing():
+        return None
     purpose = (clause.whole or tokens[clause.start].norm == "for") and fits(
         PURPOSES, said_between(tokens, clause.start, clause.after)
     )

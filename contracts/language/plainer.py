@@ -127,6 +127,12 @@ PLAINER: tuple[tuple[str, str], ...] = (
     ),
     ("(is|is it|it is) possible (for|) {robot} to", "please {robot} to"),
     ("^ is possible (that|for|) {robot}", "please {robot}"),
+    ("(i'd|i would|we'd|we would|i'll|we'll) (have|let|get) {robot}", "have {robot}"),
+    (
+        "(proceed|go|move|head|walk|travel|return|march|trot|come) to drop off (point|spot|place|zone|area|location)",
+        "go to the drop off",
+    ),
+    ("(proceed|go|move|head|walk|travel|return|march|trot|come) to drop off $", "go to the drop off"),
     ("{robot} of (yours|ours|mine|theirs|his|hers)", "{robot}"),
     ("(on|onto|on to|upon) {owner} back", "on {owner}"),
     ("^ (let's|lets|let us) (have|make) {robot}", "have {robot}"),

@@ -212,6 +212,9 @@ BEFORE_AN_OBJECT: tuple[tuple[str, str], ...] = (
 """The same, only in front of an object's name."""
 
 BEFORE_A_ZONE: tuple[tuple[str, str], ...] = (
+    ("(he|she) (is|was) (|out |over |lost |somewhere |last seen )(in|on|at)", "in"),
+    ("(he's|she's) (|out |over |lost |somewhere )(in|on|at)", "in"),
+    ("somewhere (on|within|around|about|across)", "in"),
     ("(over|down|up|out|away) (in|at|on)", "in"),
     ("fly (the|our)", "search the"),
     ("(anywhere|all about|all around|any place) (on|in|within|over|across)", "in"),

@@ -232,6 +232,13 @@ put the rover over the north half
 land it, I mean the rover
 bring the rover to a garage
 search the north half over there in the east
+rover 5 m forward, then the drone searches the north half
+move the rover to base, 5 m, and search with the drone
+the rover meets the drone at base
+the rover halted, search the north half
+is he in the north half
+he is not in the north half, search it
+my bag never came back from the north half
 """
 
 INDOOR = """
@@ -871,4 +878,8 @@ maybe lab to quadruped: go to room A
 after lunch control to quadruped: go to room A
 tomorrow ward to quadruped: go to room A
 after lunch lab to crew, send the dog to room A
+that's it, no more, take the bottle to room_a
+proceed to drop off the bottle and go away
+proceed to drop off the dog
+from the table to room_a
 """
