@@ -38,7 +38,9 @@ def stands(tokens: list[Token], at: int, words: Words) -> bool:
 
 def stands_all(tokens: list[Token], at: int, words: Words) -> bool:
     """Whether the words stand here."""
-    return tuple(t.norm for t in tokens[at : at + len(words)]) == words
+    if words and (at >= len(tokens) or tokens[at].norm != words[0]):
+        return False
+    return len(words) < 2 or tuple(t.norm for t in tokens[at : at + len(words)]) == words
 
 
 def words_of(phrase: str) -> Words:
