@@ -93,7 +93,11 @@ def value_of(written: object, rules: Rules) -> SlotValue:
 
 def mistake(request: Request, rules: Rules) -> str:
     """What is wrong with the outcome of a request; empty if it is right."""
-    judged = judge(request.text, rules, request.state)
+    return compared(request, judge(request.text, rules, request.state), rules)
+
+
+def compared(request: Request, judged: Judged, rules: Rules) -> str:
+    """What of an outcome is not as the corpus has it; empty if all is."""
     if judged.outcome != request.outcome:
         return f"{judged.outcome} {judged.code} ({judged.why})"
     if request.codes and judged.code not in request.codes:

@@ -8,7 +8,7 @@ from math import sqrt
 from typing import NamedTuple
 
 from crew.library import load_rules
-from tests.unit.contracts.language.corpus import Request, corpus, judge, mistake
+from tests.unit.contracts.language.corpus import Request, compared, corpus, judge
 
 CREWS = {"air": "air_ground", "indoor": "humanoid_quadruped"}
 Z_95 = 1.96
@@ -49,7 +49,8 @@ def judged(file: str, part: str) -> list[Judgement]:
     for prefix, crew in CREWS.items():
         rules = load_rules(crew)
         for request in corpus(f"{prefix}_{part}", file):
-            outcome, wrong = judge(request.text, rules, request.state), mistake(request, rules)
+            outcome = judge(request.text, rules, request.state)
+            wrong = compared(request, outcome, rules)
             spared = request.outcome == "refused" and outcome.outcome in ("refused", "question")
             found.append(Judgement(request, outcome.outcome, spared or not wrong, wrong))
     return found
