@@ -56,12 +56,13 @@ _PEOPLE = frozenset(("him", "her", "them", "he", "she", "they", "his", "their"))
 _AUXILIARY = frozenset(
     ("have", "has", "get", "gets", "got", "need", "needs", "want", "wants", "like", "likes", "give", "make")
 )
-_WISHED = frozenset(("want", "need", "have", "get", "would", "could", "should", "might"))
+_WISHED = frozenset(("trouble", "bother", "ask", "want", "need", "have", "get", "would", "could", "should", "might"))
 _SHOWN = dict.fromkeys(ROBOT_KINDS, "@robot") | {MentionKind.LOCATION: "@place"}
 _ASKS = frozenset((
     "i", "we", "i'd", "we'd", "i'll", "we'll", "could", "can", "would", "will", "please", "let", "have",
 ))  # fmt: skip
 """What opens a request behind what it is for."""
+_TELLING = frozenset(("have", "let", "get", "tell", "ask", "make", "so", "could", "can", "may", "would"))
 _LONGEST_SUBJECT = 4
 _LONGEST_CLAUSE = 24
 
@@ -180,6 +181,7 @@ def _harmless(tokens: list[Token], clause: Clause, lexicon: Lexicon, kept: dict[
     if clause.whole and fits(OWN_CHOICE, said):
         return whole
     if _brought(tokens, clause, lexicon) and fits(OF_THEMSELVES, _in_kinds(tokens, clause, lexicon)):
+        _keep_robot(tokens, clause, kept, lexicon)
         return whole
     if fits((*THANKS, *CALLING_ALL), said):
         return whole
@@ -205,6 +207,15 @@ def _harmless(tokens: list[Token], clause: Clause, lexicon: Lexicon, kept: dict[
         return behind
     called = called or _in_front_of((MentionKind.OBJECT,), OUT_OF_REACH, tokens, clause, lexicon)
     return None if called is None else range(clause.start, called)
+
+
+def _keep_robot(tokens: list[Token], clause: Clause, kept: dict[int, Token], lexicon: Lexicon) -> None:
+    """Keep the one robot that the clause names, where it is told something: `I'm next to the humanoid, have it ...`."""
+    entries = ((k, e) for k in range(clause.first, clause.after) for e in lexicon.names.get(tokens[k].norm, ()))
+    robots = [k for k, e in entries if e.kind in ROBOT_KINDS and len(e.words) == 1 and not e.plural]
+    called = [k for k in range(clause.after, len(tokens)) if tokens[k].norm == "it" and tokens[k - 1].norm in _TELLING]
+    if len(set(robots)) == 1 and called:
+        kept[called[0]] = tokens[called[0]]._replace(norm=tokens[robots[0]].norm)
 
 
 def _brought(tokens: list[Token], clause: Clause, lexicon: Lexicon) -> bool:

@@ -46,6 +46,7 @@ FRAMES: tuple[str, ...] = (
     "(perhaps|maybe) (you|we|someone) (could|can|might)",
     "(do|would) you mind",
     "(|i |we |you )(want|wanna) to",
+    "(it|that) would help (me|us) (|very much |a lot |greatly |so much |no end )if (|you could |you )",
     "(pretty please|abeg|biko|pleeease|pleease|prithee)",
     "if (it's|it is) (no|not a|no great|no big) (trouble|bother|problem|hassle|bother at all|trouble at all)",
     "(let's try|let us try)",

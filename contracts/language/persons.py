@@ -13,7 +13,7 @@ def _listed(text: str) -> tuple[str, ...]:
 FAMILY = _listed(
     "man woman boy girl guy lady gentleman child kid son daughter brother sister mother father mum mom mummy mommy dad "
     "daddy husband wife grandson granddaughter grandmother grandfather grandma grandpa granny grandad granddad uncle "
-    "aunt auntie cousin nephew niece fellow chap bloke nan nana gran gramps grandparent grandchild stepson "
+    "aunt auntie cousin nephew niece fellow fella chap bloke nan nana gran gramps grandparent grandchild stepson "
     "stepdaughter stepfather stepmother fiance fiancee girlfriend boyfriend spouse relative sibling twin"
 )
 CIVIL = _listed(

@@ -52,6 +52,7 @@ _AND = "(|there |over there |, )(and|and then|and ,) (|please |like |like , |the
 
 PLAINER: tuple[tuple[str, str], ...] = (
     (f"{_GIVING} {{object}} (|down |back |over |right |straight ){_MY_HAND}", "hand {object} to me"),
+    (f"{_GIVING} {{it}} (|down |back |over |right |straight ){_MY_HAND}", "hand {it} to me"),
     (f"(hand|give|pass|bring|get|fetch) (me|to me|for me) {{object}} {_MY_HAND}", "hand me {object}"),
     (f"(hand|give|pass|bring) (|to )me (in|into) (the|my) {_HAND} {{object}}", "hand me {object}"),
     (f"{_WISH} {{object}} (in|into) the {_HAND}", "hand {object} to me"),
@@ -125,7 +126,9 @@ PLAINER: tuple[tuple[str, str], ...] = (
         "^ (let|have|get|make) {robot} (recharge|charge|charge up|recharge itself|charge itself) $",
         "send {robot} to charging",
     ),
-    ("(is|is it|it is) possible (for|) {robot} to", "please {robot} to"),
+    ("(is|is it|it is|would it be|might it be|will it be) possible (for|) {robot} to", "please {robot} to"),
+    ("^ (have|let|get|make|tell) {robot} (|to )do (it|that|this|so) $", "with {robot}"),
+    ("^ (carried|transported|taken|delivered|brought|moved|hauled|conveyed) (by|on|with) {robot}", "by {robot}"),
     ("^ is possible (that|for|) {robot}", "please {robot}"),
     ("(i'd|i would|we'd|we would|i'll|we'll) (have|let|get) {robot}", "have {robot}"),
     (

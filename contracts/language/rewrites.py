@@ -26,6 +26,16 @@ REWRITES: tuple[tuple[str, str], ...] = (
     ("see if you (can|could)", "please"),
     ("(can|could|would|will) (u|ya)", "can you"),
     ("ever so", "so"),
+    ("(make|find|work|wend) (its|his|her|your) way (back|over|round|across|straight|up|down|home) to", "go to"),
+    (
+        "(take up|take|assume|get into|get in) (its|a|your|their|his|her) (position|place|post|station) "
+        "(at|in|by|near)",
+        "go to",
+    ),
+    *(
+        (f"{word} , (like|kind of|sort of|kinda|sorta) ,", word)
+        for word in ("i'm", "i am", "we're", "and", "to", "the", "it's", "is", "could you", "can you", "on", "in", "at")
+    ),
     ("(would you|do you|will you) mind (having|letting)", "please let"),
     ("(i'd|i would|we'd|we would) (appreciate|like|love) having", "please have"),
     ("(come|comes|coming) to a (stop|halt|standstill|full stop)", "stop"),

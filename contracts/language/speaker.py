@@ -46,6 +46,7 @@ _HERE = (
 _AT = (
     f"(?:{_BY} (?:you(?: @robot)?|(?:(?:the|a|your|that|this|our) (?:[a-z]+ )?)?@robot|(?:the |a )?@place|{_THING}|"
     "(?:his|its) side)"
+    f"|to me|at your (?:side|elbow|position|feet|place)|with {_THING}"
     f"|{_IN}|(?:at|on|in|by) {_SIDE}(?: of (?:the |a |this |that )?(?:@robot|@place|{_NOUN}(?: {_NOUN})?))?"
     "|(?:down|up|along) (?:the |a )?(?:hall|corridor|hallway|passage|stairs|landing)"
     f"|across (?:from )?{_THING}(?: from (?:you|(?:the )?@robot|(?:the )?@place|{_THING}))?"

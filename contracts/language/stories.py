@@ -46,7 +46,8 @@ CLASSES: dict[str, str] = {
     "at all|right now|at the moment|very well any more|very well these days|so well any more|so well these days|"
     "very well anymore|far|by myself|on my own|as i used to|like i used to|alone|very far|now",
     "it": "it is|it's|this is|that is|that's",
-    "late": "late|dark|cold|hot|urgent|important|very important|an emergency|serious|a matter of life and death|nice|"
+    "late": "late|scary|dark|cold|hot|urgent|important|very important|an emergency|serious|"
+    "a matter of life and death|nice|"
     "getting late|getting dark|getting cold|late already|hot today|cold today|hot in here|cold in here|"
     "getting late already|the end of the day|lunchtime|terrible|awful|dreadful|a worry|my first time|a lovely day|fun|"
     "a beautiful day|the least we can do|so exciting|the right thing",
@@ -109,7 +110,8 @@ CLASSES: dict[str, str] = {
     "since (?:roll call|the morning roll|school|work|the start|supper|tea time|six|seven|eight|nine|ten|eleven|twelve)|"
     "after (?:breakfast|lunch|dinner|school|work|dark|the race|the party|class)|"
     "from (?:his|her|their|a|the|our) (?:[a-z]+ ){0,2}[a-z]+|separated from (?:his|her|their|the) (?:[a-z]+ )?[a-z]+|"
-    "a while ago|since dawn|since breakfast|since lunch|since noon|since midday|since dinner|since nightfall|"
+    "a while ago|since dawn|since breakfast|since lunch|since the (?:lunch|breakfast|dinner|morning|noon)|"
+    "since noon|since midday|since dinner|since nightfall|"
     "since sunrise|since dusk|since yesterday evening|since this afternoon|since the morning|"
     "from (?:his|her|their|a|the|its) (?:walk|hike|run|ride|swim|shift|trip|round|rounds|patrol|stroll|ramble|group|"
     "party|family|friends|class|tour|excursion|outing|hike today)|"
@@ -151,6 +153,9 @@ HARMLESS: tuple[str, ...] = (
     "<my> (?:poor |old )?<body> (?:is|are|feels|feel) (?:<very> )*<ailing>(?: today| these days| again| now)?",
     "<my> (?:<ailing> |poor |old )?<body> (?:<very> )?<ails>(?: <very>)?(?: today| these days| again| any more|"
     " anymore| now)?",
+    "<have> (?:a |my |an )?(?:crutches|crutch|cast|walker|walking stick|stick|cane|wheelchair|zimmer frame|"
+    "walking frame|"
+    "broken leg|broken ankle|bad leg|bad knee|bad back|sprained ankle|plaster cast|sling)(?: today| now)?",
     "<i> (?:<very> )?<cannot> <manage>(?: <well>)*",
     "<it>(?: getting)?(?: so| very| really| quite| rather| pretty| awfully| terribly| just)* <late>(?: now| already)?",
     "<it> (?:just )?what i (?:need|want)",
@@ -181,7 +186,7 @@ HARMLESS: tuple[str, ...] = (
     "bless (?:it|him|her|its heart|his heart|its little heart|you)",
     "(?:it|he|she) (?:has|'s) (?:walked|worked|run|carried|been going|been walking)(?: quite| more than)? "
     "(?:enough|a lot|far enough)(?: today| for today| now)?",
-    "<my> legs (?:won't|will not|don't|do not|can't|cannot) (?:carry|take|hold|bear) me(?: (?:so|that|very|too|"
+    "<my> <body> (?:won't|will not|don't|do not|can't|cannot) (?:carry|take|hold|bear) me(?: (?:so|that|very|too|"
     "all that|"
     "as))?(?: far| long)?(?: any more| anymore| these days| now| today){0,2}",
     "(?:the|my|our|a|his|her) (?:[a-z]+ ){0,2}[a-z]+ (?:is|are|has|have|feels) (?:<very> )*(?:thirsty|hungry|thirst|"
