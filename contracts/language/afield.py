@@ -30,15 +30,22 @@ _HALVES = "(half|part|side|section|portion)"
 AFIELD: tuple[tuple[str, str], ...] = (
     (
         f"{{driver}} (|to |should |must |shall |will |can |could |then |and then ){_GOING} {{person}}",
-        "{driver} to {person}",
+        "{driver} should go to {person}",
     ),
-    (f"{{driver}} (|then |and then ){_GOES} {{person}}", "{driver} to {person}"),
+    (f"{{driver}} (|then |and then ){_GOES} {{person}}", "{driver} goes to {person}"),
     (f"(have|let|get|make|tell|ask) {{driver}} (|to ){_GOING} {{person}}", "send {driver} to {person}"),
     (f"(bring|get|take) {{driver}} to {_STOP}", "stop {driver}"),
     (f"{{driver}} (|to |should |must |shall |will )(come|comes) to {_STOP}", "stop {driver}"),
     (f"(let|have|make|get|allow) {{driver}} (|to )come to {_STOP}", "stop {driver}"),
     ("^ {driver} (halted|stopped|at a stop|at a halt) $", "stop {driver}"),
     ("^ {flier} (landed|grounded) $", "land {flier}"),
+    ("^ {flier} (|down |back down |back )(on|to|onto) the ground $", "land {flier}"),
+    (
+        "until (it|he|she|you|they|{flier}) (finds|find|spots|spot|sees|see|locates|locate|has found|have found) "
+        "{person}",
+        "and find {person}",
+    ),
+    ("and (park|park it|park up|stand by|hold position|hold|stay|wait|remain) (there|on the spot|at that point) $", ""),
     (
         f"{{driver}} (makes|make|takes|take|finds|find|to make|to find|should make|must make) {_WAY} (to|towards)",
         "{driver} to",

@@ -67,7 +67,7 @@ def figure(tokens: list[Token], at: int) -> Figure | None:
     found = _magnitude(tokens, at)
     if found is None:
         return None
-    value, after = found
+    value, after = _and_a_half(tokens, *found)
     metres = norm_at(tokens, after) in METRES
     after += metres
     if _tainted(tokens, after):
@@ -97,8 +97,18 @@ def _magnitude(tokens: list[Token], at: int) -> tuple[float, int] | None:
         joined = 0 < unit < 10
         return _with_decimals(tokens, TENS_WORDS[token.norm] + (unit if joined else 0), at + 1 + joined)
     if token.norm in DIGIT_WORDS:
+        second = DIGIT_WORDS.get(norm_at(tokens, at + 1), 10)
+        spelled = 0 < DIGIT_WORDS[token.norm] < 10 and second < 10 and norm_at(tokens, at + 2) in METRES
+        if spelled:  # "altitude one zero metres"
+            return float(10 * DIGIT_WORDS[token.norm] + second), at + 2
         return _with_decimals(tokens, DIGIT_WORDS[token.norm], at + 1)
     return None
+
+
+def _and_a_half(tokens: list[Token], value: float, at: int) -> tuple[float, int]:
+    """`three and a half`."""
+    half = [t.norm for t in tokens[at : at + 3]] == ["and", "a", "half"] and value.is_integer()
+    return (value + 0.5, at + 3) if half else (value, at)
 
 
 def _with_decimals(tokens: list[Token], whole: int, at: int) -> tuple[float, int]:

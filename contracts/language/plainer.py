@@ -136,6 +136,12 @@ PLAINER: tuple[tuple[str, str], ...] = (
         "go to the drop off",
     ),
     ("(proceed|go|move|head|walk|travel|return|march|trot|come) to drop off $", "go to the drop off"),
+    (
+        "^ {owner} (battery|batteries|charge|power) (is|are|is getting|is running|looks|is nearly|is almost|seems) "
+        "(low|flat|empty|down|dead|a bit low|very low) (, so|so|,|.|;) (|please )(send|take|get|bring|walk|move) it to "
+        "(the|its) (charger|charging station|charging dock|dock|charging point)",
+        "send {owner} to the charging",
+    ),
     ("{robot} of (yours|ours|mine|theirs|his|hers)", "{robot}"),
     ("(on|onto|on to|upon) {owner} back", "on {owner}"),
     ("^ (let's|lets|let us) (have|make) {robot}", "have {robot}"),

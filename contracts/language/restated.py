@@ -144,6 +144,8 @@ def _past_opening(tokens: list[Token], at: int, first: int, name: Entry | None) 
     while owner >= 0 and tokens[owner].norm in ARTICLES:
         owner -= 1
     link = tokens[at].norm if at < len(tokens) else ""
+    at += link == "back"
+    link = tokens[at].norm if at < len(tokens) else ""
     at += link == "to" or (link in _PLACED and owner >= 0 and tokens[owner].norm == link)
     passed = ARTICLES | AFFECTIVE | (IN_NEED - {"there"})
     if name is not None and name.kind is MentionKind.ZONE:

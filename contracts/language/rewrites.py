@@ -26,6 +26,14 @@ REWRITES: tuple[tuple[str, str], ...] = (
     ("see if you (can|could)", "please"),
     ("(can|could|would|will) (u|ya)", "can you"),
     ("ever so", "so"),
+    ("in search of", "to find"),
+    ("(whoever|whomever) (turns up|shows up|it is|that is|is found|is located|is spotted|appears)", "whoever you find"),
+    (
+        "(the|that) (person|casualty|victim) (|that |who |whom )(it|he|she|you|they) (finds|find|found|encounters|"
+        "locates|spots|sees|discovers|has found)",
+        "the person",
+    ),
+    ("(to|at) where (it|he|she|you) (started|came|set off|began|set out)(| from)", "to base"),
     ("(make|find|work|wend) (its|his|her|your) way (back|over|round|across|straight|up|down|home) to", "go to"),
     (
         "(take up|take|assume|get into|get in) (its|a|your|their|his|her) (position|place|post|station) "
@@ -100,7 +108,7 @@ REWRITES: tuple[tuple[str, str], ...] = (
         "needs",
     ),
     ("(make your way|make its way|find your way|get yourself|take yourself|betake yourself) to", "go to"),
-    ("(along|over|out|across|off|round|around|straight|directly|right|all the way|on over) to", "to"),
+    ("(along|over|out|across|off|round|around|straight|directly|right|all the way|on over|through) to", "to"),
     ("(along|out|across|straight|directly|right|all the way) (into|towards)", "to"),
     ("back (at|in|on)", "at"),
     ("report back", "report"),
@@ -163,6 +171,8 @@ BEFORE_A_PLACE: tuple[tuple[str, str], ...] = (
 """The same, only in front of a place's name."""
 
 BEFORE_A_GOAL: tuple[tuple[str, str], ...] = (
+    ("(make|head|aim) for", "go to"),
+    ("(standing|waiting|parked|positioned|stationed|placed) (at|by)", "at"),
     ("(you're|you are|your presence is) (wanted|needed|required|requested|expected|awaited) (at|in|by)", "go to"),
     ("respond to", "go to"),
 )
@@ -196,6 +206,7 @@ SENDING: frozenset[str] = frozenset((
 """The same, where the goal opens with `to` or `here`: `recall the rover at base` may be no order at all."""
 
 BEFORE_AN_OBJECT: tuple[tuple[str, str], ...] = (
+    ("(take|takes) up", "pick up"),
     ("(item|cargo|package|parcel|consignment|freight)", "the"),
     ("(is|are) (waiting for|waiting on|expecting|out of)", "needs"),
     ("(has been|have been) (asking for|waiting for|calling for)", "needs"),

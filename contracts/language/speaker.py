@@ -6,7 +6,7 @@ of the crew.
 """
 
 _NOUN = r"(?!(?:way|path|line|danger|risk|limit|order|trouble|moment|time|end)\b)[a-z']+"
-_DETERMINER = "(?:the|my|our|a|an|this|that|your|his|her|their)"
+_DETERMINER = "(?:all these|all those|all this|these|those|the|my|our|a|an|this|that|your|his|her|their)"
 _THING = f"{_DETERMINER} (?:{_NOUN} ){{0,2}}{_NOUN}"
 _SIDE = (
     "(?:the )?(?:very )?(?:far |other |opposite |near |left |right |back |front |far-off )?"
@@ -28,7 +28,8 @@ _BY = (
     "away from|far from|far away from|a long way from|on the other side of)"
 )
 _LOOSE = (
-    "right|just|directly|still|already|now|currently|over|back|up|down|out|all|away|far|far away|close|close by|"
+    "right|just|directly|kinda|kind of|sort of|sorta|still|already|now|currently|over|back|up|down|out|all|away|far|"
+    "far away|close|close by|"
     "near|nearby|"
     "alone|and|comfortably|quite|very|only|way|through|waiting|sitting|standing|seated|lying|resting|working|stuck|"
     "stood|sat|"

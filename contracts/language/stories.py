@@ -12,7 +12,8 @@ from crew.contracts.language.persons import CIVIL, COMPOUNDS, FAMILY, HELPERS, N
 CLASSES: dict[str, str] = {
     "i": "i|we",
     "am": "i'm|i am|we're|we are|i feel|we feel|i was|i'm feeling|i am feeling",
-    "have": "i have|i've|i've got|i have got|i got|we have|we've got",
+    "have": "we've still got|we still have|i've still got|i still have|i have|i've|i've got|i have got|i got|"
+    "we have|we've got",
     "my": "my|our",
     "very": "so|very|really|quite|a bit|a little|rather|too|pretty|terribly|awfully|just|a little bit|kinda|"
     "kind of|sort of|sorta|ever so|getting|absolutely|completely|utterly",
@@ -195,6 +196,7 @@ HARMLESS: tuple[str, ...] = (
     "(?: now| for today)?",
     "(?:it's|it has|he's|he has|she's|she has) been (?:out|working|busy|running|on the go|at it) (?:<very> )*"
     "(?:long|long enough|all day|all morning|hard|enough|a while)(?: now| already)?",
+    "that's (?:it|all|enough) (?:i think|then|i guess|i suppose|folks|everyone|everybody|lads)",
     "that's (?:all|everything|the lot)(?: (?:i|we) (?:need|want|ask|ask for|wanted|needed))?(?: for now| today)?",
     "(?:let's|let me|let us) see|let me think|i've seen (?:quite )?enough|that's (?:enough|all|it)(?: for today| now)?",
     "(?:you|he|she|it|they) (?:must|might|will) be (?:<very> )*<feeling>(?: by now| now| already| too| today)?",

@@ -13,19 +13,8 @@ from crew.contracts.language.rewrites import ASSIGNING, DOWN_ON, LOWERING, RAISI
 from crew.contracts.language.tokens import Shape, Token
 from crew.contracts.language.words import AFFECTIVE, METRES
 
-_LAUNCH, _LAND, _STOP, _TELL = "launch", "land", "stop", "tell"
+_LAUNCH, _LAND, _TELL = "launch", "land", "tell"
 _DOWN = (("down",), ("back", "down"), ("to", "ground"), ("to", "the", "ground"))
-_HALTED = frozenset(("halted", "stopped", "stationary", "frozen"))
-_JOINING: tuple[tuple[str, ...], ...] = tuple(
-    tuple(said.split())
-    for said in (
-        "close in on", "close on", "closes on", "reach to", "join up with", "link up with", "join", "joins", "approach",
-        "approaches", "attend to", "attends to", "attend", "attends", "reach", "reaches", "meet up with", "meet",
-        "meets",
-        "makes contact with", "make contact with", "goes near to", "go near to", "go up to", "goes up to",
-    )
-)  # fmt: skip
-"""Verbs for going to somebody, behind a robot's name; the longer ones first."""
 _ENDS_UP = frozenset(("and", "then", "to", "so", "please", "now"))
 _OPENS = frozenset(("and", "then", "please", "so", "or", "now"))
 
@@ -38,10 +27,7 @@ def told(tokens: list[Token], lexicon: Lexicon) -> list[Token]:
     out: list[Token] = []
     at = 0
     while at < len(tokens):
-        rules = (
-            rule(tokens, at, lexicon)
-            for rule in (_raised, _flown, _lowered, _halted, _at_rest, _joined, _height, _bare, _tasked, _assigned)
-        )
+        rules = (rule(tokens, at, lexicon) for rule in (_raised, _flown, _lowered, _height, _bare, _tasked, _assigned))
         words, plain = next((found for found in rules if found is not None), (1, tokens[at : at + 1]))
         out.extend(plain)
         at += words
@@ -112,42 +98,6 @@ def _bare(tokens: list[Token], at: int, lexicon: Lexicon) -> Rule | None:
         if climbs or (_ended(tokens, after) and not stands_all(tokens, after, ("?",))):
             return after - at, [_said(tokens[after - 1], verb), *tokens[at:end]]
     return None
-
-
-def _halted(tokens: list[Token], at: int, lexicon: Lexicon) -> Rule | None:
-    """`bring the rover to a stop`."""
-    if tokens[at].norm != "bring" or (end := _robot(tokens, at + 1, lexicon, _STOP)) is None:
-        return None
-    halted = any(stands_all(tokens, end, ("to", "a", how)) for how in ("stop", "halt", "standstill"))
-    return (end + 3 - at, [_said(tokens[at], _STOP), *tokens[at + 1 : end]]) if halted else None
-
-
-def _at_rest(tokens: list[Token], at: int, lexicon: Lexicon) -> Rule | None:
-    """`drone on the ground, rover halted`: to land, and to stop."""
-    if not begins(tokens, at):
-        return None
-    if (end := _robot(tokens, at, lexicon, _LAND)) is not None:
-        down = next((words for words in (*DOWN_ON, ("to", "the", "ground")) if stands_all(tokens, end, words)), ())
-        if down and down != ("down",) and _ended(tokens, end + len(down)):
-            return end + len(down) - at, [_said(tokens[at], _LAND), *tokens[at:end]]
-    end = _robot(tokens, at, lexicon, _STOP)
-    if end is not None and end < len(tokens) and tokens[end].norm in _HALTED and _ended(tokens, end + 1):
-        return end + 1 - at, [_said(tokens[at], _STOP), *tokens[at:end]]
-    return None
-
-
-def _joined(tokens: list[Token], at: int, lexicon: Lexicon) -> Rule | None:
-    """`and the rover joins her`: to go to whoever that is."""
-    verb = next((words for words in _JOINING if stands_all(tokens, at, words)), None)
-    mover = next((k for k in range(max(0, at - 4), at) if _robot(tokens, k, lexicon, "go") is not None), None)
-    if verb is None or mover is None or not at + len(verb) < len(tokens):
-        return None
-    name, _ = named(tokens, at + len(verb), lexicon)
-    person = name is not None and name.kind is MentionKind.VALUE
-    if not person and tokens[at + len(verb)].norm not in ("him", "her", "them"):
-        return None
-    goes = "goes" if verb[0].endswith("s") else "go"
-    return len(verb), [_said(tokens[at], goes), _said(tokens[at], "to")]
 
 
 def _height(tokens: list[Token], at: int, lexicon: Lexicon) -> Rule | None:

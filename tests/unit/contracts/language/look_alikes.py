@@ -239,6 +239,10 @@ the rover halted, search the north half
 is he in the north half
 he is not in the north half, search it
 my bag never came back from the north half
+search the north half until noon
+search the north half until it finds the car
+search the north half until you find nothing
+wait until it finds the hiker, then send the rover
 """
 
 INDOOR = """
@@ -882,4 +886,8 @@ that's it, no more, take the bottle to room_a
 proceed to drop off the bottle and go away
 proceed to drop off the dog
 from the table to room_a
+the dog's battery is low, send it to room_a
+the dog's battery is low
+wait until the dog finds the bottle
+stay there
 """

@@ -35,9 +35,18 @@ POINTS = {
     "position (3 m, 4 m)": Spot(3, 4),
     "(\u22123, \u22124)": Spot(-3, -4),
     "(20, 0)": Spot(20, 0),
+    "three and a half, minus 2 and a half": Spot(3.5, -2.5),
     "(999999, 0)": Spot(999999, 0),
 }
-ALTITUDES = {"at 5 m": 5, "at altitude 5": 5, "five metres high": 5, "at an altitude of 7.5 m": 7.5, "height: 3": 3}
+ALTITUDES = {
+    "at 5 m": 5,
+    "at altitude 5": 5,
+    "five metres high": 5,
+    "at an altitude of 7.5 m": 7.5,
+    "height: 3": 3,
+    "at altitude one zero metres": 10,
+    "at five and a half metres": 5.5,
+}
 NOT_READ = (
     "(3 ft, 4 ft)", "x from 0 to 4 km", "(3, 4, 5)", "1,000", "3", "at 5 m/s", "at 5 ft", "at 5", "at 5 pm",
     "2nd", "1e5, 2", "3.4.5, 2", "5\u00b2, 3", "\u0663, \u0664",
