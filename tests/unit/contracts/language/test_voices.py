@@ -18,6 +18,14 @@ NEEDLESS = {
     ("requests_crowd.yaml", "unread"): 0.11,
     ("requests_strangers.yaml", "unread"): 0.03,
     ("requests_newcomers.yaml", "unread"): 0.04,
+    ("requests_trades.yaml", "read"): 0.03,
+    ("requests_trades.yaml", "unread"): 0.13,
+    ("requests_rounds.yaml", "first"): 0.05,
+    ("requests_rounds.yaml", "second"): 0.12,
+    ("requests_rounds.yaml", "third"): 0.17,
+    ("requests_rounds.yaml", "fourth"): 0.11,
+    ("requests_rounds.yaml", "fifth"): 0.15,
+    ("requests_unmet.yaml", "unread"): 0.21,
 }
 """The share of requests that could be carried out and are refused; one that is asked back counts half.
 
