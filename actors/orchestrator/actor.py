@@ -19,7 +19,7 @@ from crew.bus.port import Body, Bus, Sample
 from crew.clock import Clock
 from crew.contracts.decision import Authorizer
 from crew.contracts.language.lexicon import build_lexicon
-from crew.contracts.language.reading import read_request
+from crew.contracts.language.reading import prepared, read_request
 from crew.contracts.mission import event as ev
 from crew.contracts.mission_state import MissionState
 from crew.contracts.site import Rules
@@ -66,7 +66,7 @@ class Orchestrator:
         self._operator_key = operator_key
         self._bus, self._keys, self._rules, self._clock = bus, keys, rules, clock
         self._ledger, self._epoch, self._run = ledger, epoch, run
-        self._lexicon = build_lexicon(rules)
+        self._lexicon = prepared(build_lexicon(rules))
         self._world, self._leases = WorldFold(rules, hold), LeaseTable()
         self._announcer = Announcer(bus, keys, rules, clock)
         self._tasks: dict[str, set[asyncio.Task[None]]] = {}

@@ -28,6 +28,22 @@ _LATER = frozenset(("later", "afterwards", "afterward", "subsequently", "after t
 """What says when, where one thing only is asked for."""
 
 
+_FIRST_LINES = (
+    "control to crew, once you have found my brother, who is lost, rover to him, keep it there",
+    "new task: find the ranger who got lost, my back hurts",
+    "crew from control: I can't get up, I'm next to you, bring me the bottle for the demo, bless you, then we're done",
+    "dog and drone, fly at 5 m over the area, search it and send the rover to the hiker thank you so much",
+)
+"""Lines for which every table of wordings is needed."""
+
+
+def prepared(lexicon: Lexicon) -> Lexicon:
+    """The lexicon, with every table of wordings compiled: 0.3 s that no request then waits for."""
+    for line in _FIRST_LINES:
+        read_request(line, lexicon)
+    return lexicon
+
+
 def read_request(text: str, lexicon: Lexicon) -> Reading:
     """Everything that the request names, with polarity and direction, and everything that was not understood."""
     if len(text) > MAX_CHARACTERS:
@@ -232,4 +248,4 @@ def _shown(mention: Mention) -> str:
     return prefix + mention.name
 
 
-__all__ = ["MAX_CHARACTERS", "Reading", "explain_reading", "noted_lines", "read_request"]
+__all__ = ["MAX_CHARACTERS", "Reading", "explain_reading", "noted_lines", "prepared", "read_request"]

@@ -6,11 +6,11 @@ from crew.contracts.language.afield import AFIELD
 from crew.contracts.language.endings import endings
 from crew.contracts.language.entry import Words, stands_all
 from crew.contracts.language.figures import is_numeral, with_commas
-from crew.contracts.language.findings import findings
 from crew.contracts.language.heights import heights
 from crew.contracts.language.lexicon import Lexicon
 from crew.contracts.language.lookahead import ARTICLES, named
 from crew.contracts.language.mention import ROBOT_KINDS, MentionKind
+from crew.contracts.language.once_found import findings
 from crew.contracts.language.patterns import replaced
 from crew.contracts.language.plainer import PLAINER
 from crew.contracts.language.plainer_moves import MOVES

@@ -229,23 +229,25 @@ OWN_CHOICE: tuple[str, ...] = (
 """Clauses that leave the choice of the robot to the crew, which has it anyway."""
 
 ABOUT_A_PERSON: tuple[str, ...] = (
-    "(?:<whose> )?(?:<poor> )*<person> (?:<very> )?<gone>(?: since)?(?: <since>)*",
-    "(?:we|i|they|we've|i've|they've|<whose> (?:<poor> )*<person>) <lost> <whose> (?:<poor> )*<person>(?: <since>)*",
-    "(?:someone|somebody) (?:<gone>)(?: <since>)*",
-    "(?:someone|somebody|(?:<whose> )?(?:<poor> )*<person>) 's (?:<very> )*(?:<astray>)(?: <since>)*",
-    "(?:one|a member) of (?:my|our|the|his|her|their|these) (?:<poor> )*<persons> (?:<gone>)(?: <since>)*",
-    "(?:he|she|they) (?:<gone>)(?: <since>)*",
-    "(?:he's|she's|they're|they've|he has|she has|they have|he is|she is|they are) (?:<very> )*(?:<astray>)(?: "
-    "<since>)*",
+    "(?:<whose> )?(?:<poor> )*@persons? (?:<very> )?<gone>",
+    "(?:we|i|they|we've|i've|they've|<whose> (?:<poor> )*@persons?) <lost> <whose> (?:<poor> )*@persons?",
+    "(?:someone|somebody|one) (?:<gone>)",
+    "(?:someone|somebody|(?:<whose> )?(?:<poor> )*@persons?) 's (?:<very> )*(?:<astray>)",
+    "(?:one|a member) of (?:my|our|the|his|her|their|these) (?:<poor> )*@persons (?:<gone>)",
+    "(?:he|she|they) (?:<gone>)",
+    "(?:he's|she's|they're|they've|he has|she has|they have|he is|she is|they are) (?:<very> )*(?:<astray>)",
     "(?:he's|she's|he is|she is) (?:only |just |about |around |nearly |almost |already )?<age>",
-    "(?:we're|we are|i'm|i am) (?:missing|short of|down) <whose> (?:<poor> )*<person>(?: <since>)*",
-    f"(?:<whose> )?(?:<poor> )*<person>(?: <gone>)? {REPORTED}(?: <since>)*",
-    "(?:it's|it is|that's|that is|this is) (?:<whose> )(?:<poor> )*<person>",
-    "<have> (?:someone|somebody|<whose> (?:<poor> )*<person>) (?:missing|lost|overdue)(?: <since>)*",
-    "(?:there is|there's) (?:someone|somebody|<whose> (?:<poor> )*<person>) (?:missing|lost|overdue)(?: <since>)*",
-    "<am> (?:<very> )*(?:worried|concerned|anxious|scared) (?:about|for) <whose> (?:<poor> )*<person>",
+    "(?:we're|we are|i'm|i am) (?:missing|short of|down) <whose> (?:<poor> )*@persons?",
+    f"(?:<whose> )?(?:<poor> )*@persons?(?: <gone>)? {REPORTED}",
+    "(?:it's|it is|that's|that is|this is) (?:<whose> )(?:<poor> )*@persons?",
+    "<have> (?:someone|somebody|<whose> (?:<poor> )*@persons?) (?:missing|lost|overdue)",
+    "(?:there is|there's) (?:someone|somebody|<whose> (?:<poor> )*@persons?) (?:missing|lost|overdue)",
+    "<am> (?:<very> )*(?:worried|concerned|anxious|scared) (?:about|for) <whose> (?:<poor> )*@persons?",
 )
-"""Clauses that are left out where a crew looks for a person: the person is kept for `him` and `her`."""
+"""Clauses that are left out where a crew looks for a person, who is kept for `him` and `her`.
+
+`@person` and `@persons` stand for a noun of one; since when, and from where, may follow (`closed_kinds.py`).
+"""
 
 _OCCASION = (
     "film|show|demo|demonstration|test|tests|experiment|report|class|course|lesson|exercise|drill|training|visitors|"
