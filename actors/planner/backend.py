@@ -6,8 +6,6 @@ from typing import Protocol
 import msgspec
 
 from crew.actors.planner.embedded import Abstention, PlannerState, propose
-from crew.contracts.language.lexicon import lexicon_of
-from crew.contracts.language.reading import prepared
 from crew.contracts.plan import Plan
 from crew.contracts.site import Rules
 from crew.errors import CrewError
@@ -33,7 +31,6 @@ class EmbeddedBackend:
 
     def __init__(self, rules: Rules) -> None:
         self._rules = rules
-        prepared(lexicon_of(rules))
 
     async def propose(self, ask: PlannerAsk) -> PlannerProposal:
         state = PlannerState(airborne=ask.airborne, values=ask.values, requester_near=ask.requester_near)
