@@ -5,7 +5,7 @@ from crew.contracts.language.lexicon import Lexicon, match
 from crew.contracts.language.mention import ROBOT_KINDS, MentionKind
 from crew.contracts.language.patterns import past_article
 from crew.contracts.language.recipients import Said, names_between, sentence_begins
-from crew.contracts.language.tokens import Shape, Token
+from crew.contracts.language.tokens import Shape, Token, reworded
 from crew.contracts.language.words import word_set
 
 _STAYING = ("stay", "wait", "remain", "rest", "stand by", "stand", "sit", "hold", "park", "stop")
@@ -138,4 +138,4 @@ def other_one(tokens: list[Token], at: int, lexicon: Lexicon) -> Said | None:
         return None
     end = at + 1 + (noun in ("one", family))
     words = other[0].split("_")
-    return end, [Token(w, tokens[at].start, tokens[end - 1].end, Shape.WORD) for w in words]
+    return end, [reworded(w, tokens[at], tokens[end - 1]) for w in words]

@@ -60,15 +60,19 @@ def pare(text: str, tokens: list[Token], lexicon: Lexicon) -> Pared:
             gone.update(dropped)
             if dropped:
                 noted.append(_unread(text, tokens, dropped))
-        elif clause.whole and any(
-            _harmless(tokens, part, lexicon, {}) is not None for part in parts_of(tokens, clause)
-        ):
+        elif any(is_numeral(tokens, k) for k in said) or not _tells(tokens, clause, lexicon):
             continue
-        elif not any(is_numeral(tokens, k) for k in said) and _tells(tokens, clause, lexicon):
+        elif not _in_part_harmless(tokens, clause, lexicon):
             gone.update(said)
             asked.append(_unread(text, tokens, range(clause.first, clause.after)))
     left = [kept.get(k, token) for k, token in enumerate(tokens) if k in kept or k not in gone]
     return Pared(left, noted, asked)
+
+
+def _in_part_harmless(tokens: list[Token], clause: Clause, lexicon: Lexicon) -> bool:
+    """Whether a part of it goes, so that the others are looked at one by one."""
+    parts = parts_of(tokens, clause) if clause.whole else ()
+    return any(_harmless(tokens, part, lexicon, {}) is not None for part in parts)
 
 
 def _unread(text: str, tokens: list[Token], said: range) -> Unread:

@@ -12,7 +12,7 @@ from crew.contracts.language.inflect import Form
 from crew.contracts.language.lexicon import Lexicon, match
 from crew.contracts.language.mention import ROBOT_KINDS, MentionKind
 from crew.contracts.language.symbols import Naming, spelled
-from crew.contracts.language.tokens import Shape, Token
+from crew.contracts.language.tokens import Shape, Token, reworded
 from crew.contracts.language.words import Role
 
 _ABORT = "abort"
@@ -98,7 +98,7 @@ def endings(tokens: list[Token], lexicon: Lexicon) -> list[Token]:
             everything = Token(
                 "everything", tokens[at + 1 if after - at > 1 else at].start, tokens[after - 1].end, Shape.WORD
             )
-            out.extend((Token(_ABORT, tokens[at].start, tokens[at].end, Shape.WORD), everything))
+            out.extend((reworded(_ABORT, tokens[at]), everything))
             at = after
         else:
             out.append(tokens[at])

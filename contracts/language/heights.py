@@ -11,7 +11,7 @@ from crew.contracts.language.figures import Figure, figure, norm_at
 from crew.contracts.language.inflect import Form
 from crew.contracts.language.lexicon import Lexicon
 from crew.contracts.language.mention import MentionKind
-from crew.contracts.language.tokens import Shape, Token
+from crew.contracts.language.tokens import Shape, Token, reworded
 
 _NOUNS = frozenset(("altitude", "height", "elevation", "alt"))
 _OF_FLIGHT = frozenset((
@@ -67,8 +67,8 @@ def _flown(tokens: list[Token], at: int, sweeps: list[int], lexicon: Lexicon) ->
         if "launch" not in lexicon.names:
             return None
         joined = tokens[at : at + verb]
-        return begin, [*joined, _word("launch", tokens[at + verb]), _word("to", tokens[begin - 1])]
-    return first, [_word("at", tokens[at])]
+        return begin, [*joined, reworded("launch", tokens[at + verb]), reworded("to", tokens[begin - 1])]
+    return first, [reworded("at", tokens[at])]
 
 
 def _lead(tokens: list[Token], at: int) -> Words:
@@ -101,9 +101,9 @@ def _turned(tokens: list[Token], at: int) -> tuple[int, list[Token]] | None:
     if value is None or not value.metres:
         return None
     if tokens[at].norm == "@":
-        return at + 1, [_word("at", tokens[at])]
+        return at + 1, [reworded("at", tokens[at])]
     opens = at == 0 or tokens[at - 1].shape is Shape.MARK or tokens[at - 1].norm in ("at", "in", "half", "area", "with")
-    return (value.after, [*tokens[at + 1 : value.after], _word("high", tokens[at])]) if opens else None
+    return (value.after, [*tokens[at + 1 : value.after], reworded("high", tokens[at])]) if opens else None
 
 
 def _noun(tokens: list[Token], at: int) -> tuple[int, list[Token]] | None:
@@ -116,7 +116,7 @@ def _noun(tokens: list[Token], at: int) -> tuple[int, list[Token]] | None:
     start = at + 2
     while norm_at(tokens, start) in ("of", ":", "=", "at", "is"):
         start += 1
-    return (at + 2, [_word("altitude", tokens[at])]) if figure(tokens, start) is not None else None
+    return (at + 2, [reworded("altitude", tokens[at])]) if figure(tokens, start) is not None else None
 
 
 def _sweeps(tokens: list[Token], at: int, lexicon: Lexicon) -> bool:
@@ -127,7 +127,3 @@ def _sweeps(tokens: list[Token], at: int, lexicon: Lexicon) -> bool:
         and any((r.contract, r.step) in lexicon.zone_steps for r in e.means)
         for e in lexicon.names.get(tokens[at].norm, ())
     )
-
-
-def _word(norm: str, token: Token) -> Token:
-    return Token(norm, token.start, token.end, Shape.WORD)

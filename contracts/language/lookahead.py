@@ -1,5 +1,7 @@
 """What stands at a place in a request, and what stands before and after it."""
 
+from collections.abc import Collection
+
 from crew.contracts.language.entry import Entry, stands
 from crew.contracts.language.lexicon import Lexicon, match
 from crew.contracts.language.mention import MentionKind
@@ -15,6 +17,13 @@ def named(tokens: list[Token], at: int, lexicon: Lexicon) -> tuple[Entry | None,
     start = at + (at < len(tokens) and tokens[at].norm in ARTICLES)
     name = match(lexicon.names, tokens, start) if start < len(tokens) else None
     return name, start + (0 if name is None else len(name.words))
+
+
+def past_all(tokens: list[Token], at: int, words: Collection[str]) -> int:
+    """The next position, past every one of these words that stands here."""
+    while at < len(tokens) and tokens[at].norm in words:
+        at += 1
+    return at
 
 
 class Lookahead:

@@ -13,7 +13,7 @@ from crew.contracts.language.lexicon import Lexicon, match
 from crew.contracts.language.lookahead import ARTICLES
 from crew.contracts.language.mention import ROBOT_KINDS, MentionKind
 from crew.contracts.language.symbols import Naming, Said, spelled
-from crew.contracts.language.tokens import Shape, Token
+from crew.contracts.language.tokens import Shape, Token, reworded
 from crew.contracts.language.words import Role, word_set
 
 _PERSON, _SEARCHER = "PERSON", "SEARCHER"
@@ -132,7 +132,7 @@ def _when(tokens: list[Token], at: int, lexicon: Lexicon) -> tuple[int, list[Tok
     last = tokens[after - 1]
     whom = {t.start for t in who}
     verb = next((t for t in reversed(tokens[at + 1 : after]) if t.start not in whom and t.norm not in ARTICLES), last)
-    once = [_word("once", tokens[at]), _word("found", verb)]
+    once = [reworded("once", tokens[at]), reworded("found", verb)]
     comma = [Token(",", last.end, last.end, Shape.MARK)] if goes_on else []
     return after, [*once, *who, *comma]
 
@@ -145,7 +145,7 @@ def _place(tokens: list[Token], at: int, lexicon: Lexicon) -> tuple[int, list[To
     after, who = hit
     closed = after == len(tokens) or tokens[after].shape is Shape.MARK or _begins(tokens, after, lexicon)
     asked = ("where", "is") if at and tokens[at - 1].norm in _ASKING else ("to",)
-    return (after, [*(_word(said, tokens[at]) for said in asked), *who]) if closed and who else None
+    return (after, [*(reworded(said, tokens[at]) for said in asked), *who]) if closed and who else None
 
 
 def _matched(table: str, tokens: list[Token], at: int, lexicon: Lexicon) -> tuple[int, list[Token]] | None:
@@ -163,7 +163,7 @@ def _whom(tokens: list[Token], said: Said, end: int) -> list[Token]:
         if word == _PERSON:
             return [t._replace(possessive=False) for t in tokens[first:after]]
         if (plain := _PRONOUNS.get(word)) is not None:
-            return [_word(plain, tokens[first])]
+            return [reworded(plain, tokens[first])]
     return []
 
 
@@ -201,10 +201,6 @@ def _begins(tokens: list[Token], at: int, lexicon: Lexicon) -> bool:
     role = entry.role if (entry := match(lexicon.functions, tokens, at)) is not None else None
     special = lexicon.special.get(tokens[at].norm, ())
     return role in _OPENS or any(e.role in (Role.CAUSE, Role.LIGHT, Role.OPENER) for e in special)
-
-
-def _word(norm: str, token: Token) -> Token:
-    return Token(norm, token.start, token.end, Shape.WORD)
 
 
 @cache

@@ -17,7 +17,7 @@ from crew.contracts.language.entry import Entry, Words, stands_all
 from crew.contracts.language.figures import figure
 from crew.contracts.language.inflect import Form, inflections
 from crew.contracts.language.lexicon import Lexicon, match
-from crew.contracts.language.lookahead import ARTICLES
+from crew.contracts.language.lookahead import ARTICLES, past_all
 from crew.contracts.language.mention import ROBOT_KINDS, MentionKind
 from crew.contracts.language.tokens import Shape, Token
 from crew.contracts.language.words import AFFECTIVE, REQUESTER, SELF_WORDS
@@ -26,6 +26,7 @@ _PART = re.compile(r"\(([^()]*)\)|\{(\w+)\}|(\S+)")
 _OPENS = frozenset(("and", "then", "please", "so", "now", "just", "kindly", "to", "also", "okay", "ok", "well", "hey"))
 _ASKING = frozenset(("can", "could", "would", "will", "may", "might", "if", "mind"))
 _CLOSES = frozenset(("and", "then", "please", "so", "now", "over", "thanks"))
+_PASSED = ARTICLES | AFFECTIVE | {"one"}
 _SELVES = frozenset((*SELF_WORDS, "us"))
 _SAME_PAST = frozenset(("put", "set"))
 
@@ -169,11 +170,7 @@ def ends(tokens: list[Token], at: int) -> bool:
 
 def past_article(tokens: list[Token], at: int) -> int:
     """Past articles, `one`, and words of affection."""
-    while at < len(tokens) and (
-        tokens[at].norm in ARTICLES or tokens[at].norm in AFFECTIVE or tokens[at].norm == "one"
-    ):
-        at += 1
-    return at
+    return past_all(tokens, at, _PASSED)
 
 
 def _name(tokens: list[Token], at: int, lexicon: Lexicon) -> tuple[Entry | None, int]:

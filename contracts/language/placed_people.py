@@ -8,7 +8,7 @@ from crew.contracts.language.lexicon import Lexicon, match
 from crew.contracts.language.mention import MentionKind
 from crew.contracts.language.patterns import past_article
 from crew.contracts.language.recipients import NEEDING, past_people
-from crew.contracts.language.tokens import Shape, Token
+from crew.contracts.language.tokens import Shape, Token, reworded
 from crew.contracts.language.words import word_set
 
 _BEING = tuple(
@@ -67,7 +67,7 @@ def _told(tokens: list[Token], at: int, lexicon: Lexicon) -> tuple[list[Token], 
     subject += subject < len(tokens) and tokens[subject].norm == "and"
     if subject < len(tokens) and tokens[subject].norm in _SUBJECTS:
         need = _needs(tokens, subject)
-        return None if need is None else ([*place, _word("needs", tokens, subject, need)], need)
+        return None if need is None else ([*place, reworded("needs", tokens[subject], tokens[need - 1])], need)
     return (place, after) if _over(tokens, after) and {t.norm for t in tokens[after:]} & _PRONOUNS else None
 
 
@@ -89,11 +89,7 @@ def _there(tokens: list[Token]) -> list[Token]:
     out: list[Token] = []
     for token in tokens:
         if token.norm in _PRONOUNS and out and out[-1].norm == "to":
-            out[-1] = Token("there", out[-1].start, token.end, Shape.WORD)
+            out[-1] = reworded("there", out[-1], token)
         else:
             out.append(token)
     return out
-
-
-def _word(norm: str, tokens: list[Token], first: int, after: int) -> Token:
-    return Token(norm, tokens[first].start, tokens[after - 1].end, Shape.WORD)

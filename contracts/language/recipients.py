@@ -5,9 +5,10 @@ from collections.abc import Iterator
 from crew.contracts.language.entry import Entry, stands_all
 from crew.contracts.language.inflect import inflections
 from crew.contracts.language.lexicon import Lexicon, match
+from crew.contracts.language.lookahead import past_all
 from crew.contracts.language.mention import ROBOT_KINDS, MentionKind
 from crew.contracts.language.patterns import past_article
-from crew.contracts.language.tokens import Shape, Token
+from crew.contracts.language.tokens import Shape, Token, reworded
 from crew.contracts.language.words import word_set
 
 _SENTENCE = frozenset(".!?;")
@@ -101,7 +102,7 @@ def seat(tokens: list[Token], at: int, lexicon: Lexicon) -> Said | None:
     if near and end + near < len(tokens) and tokens[end + near].norm in _FURNITURE:
         end += near + 1
     first = tokens[at]
-    return end, [first._replace(norm="to"), Token("me", tokens[at + 1].start, tokens[end - 1].end, Shape.WORD)]
+    return end, [first._replace(norm="to"), reworded("me", tokens[at + 1], tokens[end - 1])]
 
 
 def sentence_begins(tokens: list[Token], at: int) -> int:
@@ -149,7 +150,7 @@ def who_is_there(tokens: list[Token], at: int, lexicon: Lexicon) -> Said | None:
     wish = next((words for words in NEEDING if stands_all(tokens, after, words)), None)
     if wish is None:
         return None
-    needs = Token("needs", tokens[after].start, tokens[after + len(wish) - 1].end, Shape.WORD)
+    needs = reworded("needs", tokens[after], tokens[after + len(wish) - 1])
     return after + len(wish), [*tokens[start:after], needs]
 
 
@@ -169,16 +170,14 @@ def who_wants(tokens: list[Token], at: int, lexicon: Lexicon) -> Said | None:
     after = start + len(name.words)
     last = next((k for k in range(after, len(tokens)) if tokens[k].norm in _SENTENCE), len(tokens))
     placed = any(e.kind is MentionKind.LOCATION for e in names_between(tokens, after, last, lexicon))
-    need = Token("need", tokens[end].start, tokens[end + len(wish) - 1].end, Shape.WORD)
-    we = Token("we", tokens[at].start, tokens[end - 1].end, Shape.WORD)
+    need = reworded("need", tokens[end], tokens[end + len(wish) - 1])
+    we = reworded("we", tokens[at], tokens[end - 1])
     return (end + len(wish), [we, need]) if placed else None
 
 
 def past_people(tokens: list[Token], at: int, *, owned: bool = False) -> int | None:
     """Past a noun for people that the crew gives no meaning."""
-    end = at
-    while end < len(tokens) and (tokens[end].norm in _WHOSE or tokens[end].norm in _KINDLY):
-        end += 1
+    end = past_all(tokens, at, _WHOSE | _KINDLY)
     known = end < len(tokens) and tokens[end].norm in _PEOPLE and (owned or not tokens[end].possessive)
     return end + 1 if known else None
 

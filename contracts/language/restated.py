@@ -6,7 +6,7 @@ it says whom a pronoun means: `drive to him, to the climber I mean`.
 
 from crew.contracts.language.entry import Entry, Words, stands_all
 from crew.contracts.language.lexicon import Lexicon, match
-from crew.contracts.language.lookahead import ARTICLES
+from crew.contracts.language.lookahead import ARTICLES, past_all
 from crew.contracts.language.mention import ROBOT_KINDS, MentionKind
 from crew.contracts.language.rewrites import HESITATIONS
 from crew.contracts.language.stories import SPEAKS
@@ -94,11 +94,13 @@ def _one_of_that_kind(tokens: list[Token], at: int, name: Entry, lexicon: Lexico
     if name.kind is MentionKind.ACTION or name.plural or len(name.values) != 1 or after >= len(tokens):
         return None
     the = after + (tokens[after].norm in _MARKS)
-    said = [t.norm for t in tokens[the : the + 3]]
-    others = (e for found in lexicon.names.values() for e in found if e.values == name.values and len(e.words) > 1)
-    if len(said) < 3 or said[0] != "the" or said[2] != "one" or said[1] not in {e.words[0] for e in others}:
-        return None
     end = the + 3
+    said = [t.norm for t in tokens[the:end]]
+    if len(said) < 3 or said[0] != "the" or said[2] != "one":
+        return None
+    others = (e for found in lexicon.names.values() for e in found if e.values == name.values and len(e.words) > 1)
+    if said[1] not in {e.words[0] for e in others}:
+        return None
     return end + (end < len(tokens) and tokens[end].norm == "," and the > after)
 
 
@@ -150,9 +152,7 @@ def _past_opening(tokens: list[Token], at: int, first: int, name: Entry | None) 
     passed = ARTICLES | AFFECTIVE | (IN_NEED - {"there"})
     if name is not None and name.kind is MentionKind.ZONE:
         passed |= _WHOLE
-    while at < len(tokens) and tokens[at].norm in passed:
-        at += 1
-    return at
+    return past_all(tokens, at, passed)
 
 
 def _marks(tokens: list[Token], begin: int, end: int) -> bool:

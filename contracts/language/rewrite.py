@@ -177,17 +177,7 @@ def _moved_robot(tokens: list[Token], at: int, lexicon: Lexicon) -> tuple[int, W
     name, end = named(tokens, at + 1, lexicon)
     if name is None or name.kind not in ROBOT_KINDS:
         return None
-    end += end < len(tokens) and tokens[end].norm in (
-        "back",
-        "over",
-        "out",
-        "along",
-        "across",
-        "up",
-        "down",
-        "on",
-        "straight",
-    )
+    end += end < len(tokens) and tokens[end].norm in _OVER
     leads = ("to", "here") if summoned else LEADS_ON
     return (1, ("send",)) if end < len(tokens) and tokens[end].norm in leads else None
 

@@ -4,7 +4,7 @@ Each of these leaves what is asked for as it is; what may change it (a figure, a
 """
 
 from crew.contracts.language.arrived import other_one, pointed_at, sent_over, stays
-from crew.contracts.language.entry import Entry, stands_all
+from crew.contracts.language.entry import stands_all
 from crew.contracts.language.figures import is_numeral
 from crew.contracts.language.lexicon import Lexicon, match
 from crew.contracts.language.lookahead import ARTICLES
@@ -12,7 +12,7 @@ from crew.contracts.language.mention import ROBOT_KINDS, MentionKind
 from crew.contracts.language.patterns import past_article
 from crew.contracts.language.placed_people import placed_people
 from crew.contracts.language.recipients import Said, for_whom, seat, to_whom, who_is_there, who_wants
-from crew.contracts.language.tokens import Shape, Token
+from crew.contracts.language.tokens import Shape, Token, reworded
 from crew.contracts.language.words import AFFECTIVE, word_set
 
 _LONGEST_REPEAT = 4
@@ -148,7 +148,7 @@ def _drop_off(tokens: list[Token], at: int, lexicon: Lexicon) -> Said | None:
         (
             e
             for e in lexicon.names.get(tokens[at].norm, ())
-            if e.kind is MentionKind.LOCATION and _is_here(tokens, at, e)
+            if e.kind is MentionKind.LOCATION and stands_all(tokens, at, e.words)
         ),
         None,
     )
@@ -163,8 +163,4 @@ def _drop_off(tokens: list[Token], at: int, lexicon: Lexicon) -> Said | None:
     follows = end < len(tokens) and (tokens[end].norm in ARTICLES or tokens[end].norm in ("it", "them"))
     if thing or follows or (place.name, 1) not in {(e.name, len(e.words)) for e in lexicon.names.get(place.name, ())}:
         return None
-    return end, [Token(place.name, tokens[at].start, tokens[end - 1].end, Shape.WORD)]
-
-
-def _is_here(tokens: list[Token], at: int, entry: Entry) -> bool:
-    return stands_all(tokens, at, entry.words)
+    return end, [reworded(place.name, tokens[at], tokens[end - 1])]

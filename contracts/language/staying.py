@@ -13,7 +13,7 @@ from crew.contracts.language.lexicon import Lexicon, match
 from crew.contracts.language.lookahead import ARTICLES
 from crew.contracts.language.mention import ROBOT_KINDS, MentionKind
 from crew.contracts.language.symbols import Naming, spelled
-from crew.contracts.language.tokens import Shape, Token
+from crew.contracts.language.tokens import Shape, Token, reworded
 
 _LONGEST = 16
 _HALTS = frozenset(("hold", "holds", "halt", "halts", "freeze", "freezes", "stop", "stops", "holding"))
@@ -108,11 +108,11 @@ def _stays(tokens: list[Token], at: int, lexicon: Lexicon) -> tuple[int, list[To
     if _sent_later(tokens, name, after):
         return after, []
     if "doing" in others or not (halts or others):
-        return after, [_word("leave", tokens[at]), *name, _word("alone", tokens[after - 1])]
+        return after, [reworded("leave", tokens[at]), *name, reworded("alone", tokens[after - 1])]
     robots = match(lexicon.names, tokens, past - 1) or match(lexicon.names, tokens, first)
     if not _can_stop(tokens, first, past, lexicon) or robots is None:
-        return after, [_word("leave", tokens[at]), *name, _word("alone", tokens[after - 1])]
-    return after, [_word(_STOP, tokens[at]), *name]
+        return after, [reworded("leave", tokens[at]), *name, reworded("alone", tokens[after - 1])]
+    return after, [reworded(_STOP, tokens[at]), *name]
 
 
 _MARKS = frozenset((",", ":", "-"))
@@ -166,10 +166,6 @@ def _naming(lexicon: Lexicon) -> Naming:
         return "PLACE" if name.kind is MentionKind.LOCATION else ""
 
     return symbol
-
-
-def _word(norm: str, token: Token) -> Token:
-    return Token(norm, token.start, token.end, Shape.WORD)
 
 
 @cache

@@ -27,6 +27,11 @@ class Token(NamedTuple):
     possessive: bool = False
 
 
+def reworded(norm: str, first: Token, last: Token | None = None) -> Token:
+    """A word over what was said from one token to another."""
+    return Token(norm, first.start, (last or first).end, Shape.WORD)
+
+
 _MARKS = "!\"#$%&'()*+,\\-./:;<=>?@\\[\\\\\\]^_`{|}~\u2018\u2019\u201c\u201d\u2013\u2014\u2026\u2212"
 _LEXEME = re.compile(
     rf"(?P<number>\d+(?:\.\d+)*|\.\d+)|(?P<word>[^\s{_MARKS}]+(?:['\u2019][^\s{_MARKS}]+)*)|(?P<mark>\S)|(?P<line>\n)"

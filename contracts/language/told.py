@@ -6,17 +6,16 @@ Every rule needs the robot's name in its place, and that each robot that may be 
 from crew.contracts.language.entry import Entry, stands_all
 from crew.contracts.language.figures import is_numeral
 from crew.contracts.language.lexicon import Lexicon, match
-from crew.contracts.language.lookahead import ARTICLES, named
+from crew.contracts.language.lookahead import ARTICLES, named, past_all
 from crew.contracts.language.mention import ROBOT_KINDS, MentionKind
 from crew.contracts.language.patterns import begins
 from crew.contracts.language.rewrites import ASSIGNING, DOWN_ON, LOWERING, RAISING, TASKING, UP_IN
-from crew.contracts.language.tokens import Shape, Token
+from crew.contracts.language.tokens import Shape, Token, reworded
 from crew.contracts.language.words import AFFECTIVE, METRES
 
 _LAUNCH, _LAND, _TELL = "launch", "land", "tell"
 _DOWN = (("down",), ("back", "down"), ("to", "ground"), ("to", "the", "ground"))
 _ENDS_UP = frozenset(("and", "then", "to", "so", "please", "now"))
-_OPENS = frozenset(("and", "then", "please", "so", "or", "now"))
 
 Rule = tuple[int, list[Token]]
 """How many tokens are replaced, and by what."""
@@ -43,12 +42,12 @@ def _raised(tokens: list[Token], at: int, lexicon: Lexicon) -> Rule | None:
         return None
     after = end + len(up)
     if up == ("up",) and _over_zone(tokens, after, lexicon):
-        over = _said(tokens[after], "over")
-        return after + 1 - at, [_said(tokens[at], _LAUNCH), *tokens[at + 1 : end], over]
+        over = reworded("over", tokens[after])
+        return after + 1 - at, [reworded(_LAUNCH, tokens[at]), *tokens[at + 1 : end], over]
     climbs = after < len(tokens) and tokens[after].norm == "to"
     if len(up) == 1 and not (_closed(tokens, after) and (not climbs or _numeral(tokens, after + 1))):
         return None
-    return after - at, [_said(tokens[at], _LAUNCH), *tokens[at + 1 : end]]
+    return after - at, [reworded(_LAUNCH, tokens[at]), *tokens[at + 1 : end]]
 
 
 def _over_zone(tokens: list[Token], at: int, lexicon: Lexicon) -> bool:
@@ -68,7 +67,7 @@ def _flown(tokens: list[Token], at: int, lexicon: Lexicon) -> Rule | None:
     above = any(stands_all(tokens, over, (word,)) for word in ("over", "across", "above"))
     if not above or name is None or name.kind is not MentionKind.ZONE:
         return None
-    return over + 1 - at, [_said(tokens[at], "fly"), *tokens[at + 1 : end], _said(tokens[over], "over")]
+    return over + 1 - at, [reworded("fly", tokens[at]), *tokens[at + 1 : end], reworded("over", tokens[over])]
 
 
 def _lowered(tokens: list[Token], at: int, lexicon: Lexicon) -> Rule | None:
@@ -78,7 +77,7 @@ def _lowered(tokens: list[Token], at: int, lexicon: Lexicon) -> Rule | None:
     down = next((words for words in DOWN_ON if stands_all(tokens, end, words)), None)
     if down is None or not _ended(tokens, end + len(down)):
         return None
-    return end + len(down) - at, [_said(tokens[at], _LAND), *tokens[at + 1 : end]]
+    return end + len(down) - at, [reworded(_LAND, tokens[at]), *tokens[at + 1 : end]]
 
 
 def _bare(tokens: list[Token], at: int, lexicon: Lexicon) -> Rule | None:
@@ -87,7 +86,7 @@ def _bare(tokens: list[Token], at: int, lexicon: Lexicon) -> Rule | None:
         return None
     end = _robot(tokens, at + 1, lexicon, _LAND) if tokens[at].norm == "ground" else None
     if end is not None and _ended(tokens, end):
-        return 1, [_said(tokens[at], _LAND)]
+        return 1, [reworded(_LAND, tokens[at])]
     for verb, ways in ((_LAUNCH, UP_IN), (_LAND, _DOWN)):
         end = _robot(tokens, at, lexicon, verb)
         way = next((w for w in ways if end is not None and stands_all(tokens, end, w)), None)
@@ -96,7 +95,7 @@ def _bare(tokens: list[Token], at: int, lexicon: Lexicon) -> Rule | None:
         after = end + len(way)
         climbs = after < len(tokens) and tokens[after].norm in ("to", "at") and _numeral(tokens, after + 1)
         if climbs or (_ended(tokens, after) and not stands_all(tokens, after, ("?",))):
-            return after - at, [_said(tokens[after - 1], verb), *tokens[at:end]]
+            return after - at, [reworded(verb, tokens[after - 1]), *tokens[at:end]]
     return None
 
 
@@ -111,7 +110,7 @@ def _height(tokens: list[Token], at: int, lexicon: Lexicon) -> Rule | None:
     searches = any((r.contract, r.step) in lexicon.zone_steps for e in sweeps if e is not None for r in e.means)
     if not (closed and flies and searches and tokens[unit].norm in METRES):
         return None
-    return 1, [_said(tokens[at], "at"), tokens[at]]
+    return 1, [reworded("at", tokens[at]), tokens[at]]
 
 
 def _tasked(tokens: list[Token], at: int, lexicon: Lexicon) -> Rule | None:
@@ -123,7 +122,7 @@ def _tasked(tokens: list[Token], at: int, lexicon: Lexicon) -> Rule | None:
     verb = _action(tokens, noun, lexicon)
     if verb is None or not any((r.contract, r.step) in lexicon.zone_steps for r in verb.means):
         return None
-    return end + 1 - at, [_said(tokens[at], "have"), *tokens[at + 1 : end], _said(tokens[end], "do")]
+    return end + 1 - at, [reworded("have", tokens[at]), *tokens[at + 1 : end], reworded("do", tokens[end])]
 
 
 def _assigned(tokens: list[Token], at: int, lexicon: Lexicon) -> Rule | None:
@@ -134,13 +133,12 @@ def _assigned(tokens: list[Token], at: int, lexicon: Lexicon) -> Rule | None:
     placed = match(lexicon.names, tokens, end + 1)
     if placed is not None and placed.kind is not MentionKind.ACTION:
         return None
-    return 1, [_said(tokens[at], _TELL)]
+    return 1, [reworded(_TELL, tokens[at])]
 
 
 def _robot(tokens: list[Token], at: int, lexicon: Lexicon, verb: str = "") -> int | None:
     """Past one robot's name that stands here, if each robot it may mean has the skill of the verb."""
-    while at < len(tokens) and (tokens[at].norm in ARTICLES or tokens[at].norm in AFFECTIVE):
-        at += 1
+    at = past_all(tokens, at, ARTICLES | AFFECTIVE)
     name = match(lexicon.names, tokens, at) if at < len(tokens) else None
     if name is None or name.kind not in ROBOT_KINDS or name.plural:
         return None
@@ -164,7 +162,3 @@ def _ended(tokens: list[Token], at: int) -> bool:
 
 def _numeral(tokens: list[Token], at: int) -> bool:
     return at < len(tokens) and is_numeral(tokens, at)
-
-
-def _said(token: Token, word: str) -> Token:
-    return Token(word, token.start, token.end, Shape.WORD)

@@ -324,28 +324,19 @@ def as_plain(said: dict[str, str], rules: Rules) -> list[str]:
     return [line for line, plain in lines if plan(line, rules) != plan(plain, rules)]
 
 
-def test_the_person_to_be_found_is_read_by_any_name(rules: Rules) -> None:
-    assert as_plain(PEOPLE, rules) == []
-
-
-def test_a_robot_that_stays_is_left_out_or_stopped(rules: Rules) -> None:
-    assert as_plain(STAYING, rules) == []
-
-
-def test_everything_ends_by_any_word(rules: Rules) -> None:
-    assert as_plain(ENDING, rules) == []
-
-
-def test_what_is_said_of_the_field_is_read(rules: Rules) -> None:
-    assert as_plain(AFIELD, rules) == []
-
-
-def test_a_height_and_a_point_are_read_as_they_are_spoken(rules: Rules) -> None:
-    assert as_plain(HEIGHTS, rules) == []
-
-
-def test_who_calls_whom_is_no_part_of_the_request(rules: Rules) -> None:
-    assert as_plain(CALLS, rules) == []
+@pytest.mark.parametrize(
+    "said",
+    [
+        pytest.param(PEOPLE, id="whoever is to be found"),
+        pytest.param(STAYING, id="a robot that stays"),
+        pytest.param(ENDING, id="everything ends"),
+        pytest.param(AFIELD, id="the field"),
+        pytest.param(HEIGHTS, id="heights and points as they are spoken"),
+        pytest.param(CALLS, id="who calls whom"),
+    ],
+)
+def test_wordings_are_read_as_the_plain_one(said: dict[str, str], rules: Rules) -> None:
+    assert as_plain(said, rules) == []
 
 
 def test_what_only_looks_like_it_is_not_carried_out(rules: Rules) -> None:
