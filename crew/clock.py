@@ -28,7 +28,7 @@ class Clock(Protocol):
     async def sleep_until(self, deadline_ns: int) -> None: ...
 
     def busy(self) -> AbstractContextManager[None]:
-        """Inside this context simulated time does not advance (in lockstep): work or a real wait is in flight."""
+        """Work or a real wait is in flight: inside this context a simulation in lockstep does not advance."""
         ...
 
 

@@ -415,12 +415,16 @@ Pose = tuple[float, float, float, float, float, float, float]
 
 
 class ClockTick(Message, frozen=True, kw_only=True):
-    """Mission time in simulation. `datagrams` is how many the simulation has sent to each robot's adapter."""
+    """Mission time in simulation. `datagrams` is how many the simulation has sent to each robot's adapter.
+
+    A `paced` world goes on at the wall's pace, whatever its participants are working on.
+    """
 
     schema: ClassVar[str] = "crew.clock_tick"
     version: ClassVar[int] = 1
     slice: int
     now_ns: int
+    paced: bool = False
     datagrams: Mapping[str, int] = {}
 
 

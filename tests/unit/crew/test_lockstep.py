@@ -12,15 +12,16 @@ from crew.bus.fabric import MemoryFabric
 from crew.bus.memory import MemoryBus
 from crew.bus.port import Bus, Qos
 from crew.clock import WALL, SimClock
+from crew.contracts.gate.guard import FUTURE_NS
 from crew.keys import Keys
 from crew.lockstep import COUNT_AFTER, Participant
 from crew.mailbox import Events, Letter, letters
 from crew.messages import ClockAck, ClockTick
 from crew.sim import pace as pace_module
 from crew.sim.pace import Lockstep
+from crew.sim.process import AHEAD_PACED, SLICE_NS
 
 KEYS = Keys("lab")
-SLICE_NS = 50_000_000
 
 
 class Stage:
@@ -35,9 +36,10 @@ class Stage:
         self.heard: Events[Letter[ClockAck]] = Events(letters(ClockAck), capacity=64, on_lost=lambda _: None)
         sim.subscribe(KEYS.clock_acks, self.heard)
 
-    def tick(self, number: int, datagrams: int = 0) -> None:
-        now_ns = number * SLICE_NS
-        self.sim.put(KEYS.clock, ClockTick(slice=number, now_ns=now_ns, datagrams={"iris": datagrams}), qos=Qos.EVENT)
+    def tick(self, number: int, datagrams: int = 0, *, paced: bool = False) -> None:
+        sent = {"iris": datagrams}
+        tick = ClockTick(slice=number, now_ns=number * SLICE_NS, datagrams=sent, paced=paced)
+        self.sim.put(KEYS.clock, tick, qos=Qos.EVENT)
 
     async def ack(self, number: int, name: str = "iris", *, holding: bool = False, idle: bool = True) -> None:
         """Say so, and return when the simulation's side has it."""
@@ -194,6 +196,10 @@ async def test_a_paced_simulation_waits_for_whoever_is_behind_but_not_for_whoeve
     assert await within(waiting)
 
 
+def test_a_world_that_is_ahead_of_its_slowest_participant_is_not_yet_the_future() -> None:
+    assert (AHEAD_PACED + 1) * SLICE_NS < FUTURE_NS
+
+
 async def test_the_simulation_hurries_as_long_as_one_participant_works(stage: Stage) -> None:
     await stage.ack(1, "iris", idle=True)
     await stage.ack(1, "tb3", idle=False)
@@ -215,6 +221,15 @@ async def test_a_slice_is_withheld_while_work_is_in_flight(stage: Stage) -> None
         done = await done_with_a_slice(stage)
         assert done.slice == 1
         assert done.idle
+
+
+async def test_in_a_paced_world_mission_time_goes_on_while_work_is_in_flight(stage: Stage) -> None:
+    async with following(stage):
+        with stage.clock.busy():
+            for number in (1, 2, 3):
+                stage.tick(number, paced=True)
+                assert (await done_with_a_slice(stage)).slice == number
+                assert stage.clock.now_ns() == number * SLICE_NS
 
 
 async def test_time_waits_for_datagrams_that_the_simulation_has_sent(stage: Stage) -> None:
