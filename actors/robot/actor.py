@@ -167,6 +167,7 @@ class RobotActor:
                 continue
             self._problem = ""
             self._stop.again()
+            self.report.values()  # before it counts as there: the first plan may need them
             self.report.event("ready")
             self.report.state()
             return

@@ -50,11 +50,14 @@ class FakeAdapter:
         self.sick = ""
         self.known: dict[str, FluentValue] = {"moving": False, "at": Point(*SPAWN), "battery": 90.0}
         self.published: dict[str, ValueReading] = {}
+        self.sees: dict[str, ValueReading] = {}
+        """What it publishes from the moment on at which it has its vehicle."""
         self.met: list[Neighbour] = []
 
     async def connect(self) -> None:
         if self.missing:
             raise self.missing.pop(0)
+        self.published |= self.sees
 
     def meet(self, neighbour: Neighbour) -> None:
         self.met.append(neighbour)

@@ -1,7 +1,8 @@
 """An orchestrator that has just come is told at once who a robot is: nobody waits for the next second's card."""
 
+from crew.contracts.snapshot import Point, ValueReading
 from crew.mailbox import Events, Letter, letters
-from crew.messages import RobotCard
+from crew.messages import RobotCard, RobotValue
 from tests.unit.actors.stage import RobotStage, robot_stage
 
 
@@ -46,3 +47,14 @@ async def test_the_first_heartbeat_is_answered_with_a_state_that_takes_commands(
             if any(not state.unavailable for state in stage.states):
                 break
         assert [(state.unavailable, state.at_ns) for state in stage.states] == [("", at_ns)]
+
+
+async def test_what_a_robot_sees_is_told_before_it_counts_as_there() -> None:
+    """A request that comes at once may need it, and mission time stands still until then."""
+    async with robot_stage(stop_first=True) as stage:
+        values: Events[Letter[RobotValue]] = Events(letters(RobotValue), capacity=64, on_lost=lambda _: None)
+        stage.bus.subscribe(stage.keys.robot_values, values)
+        stage.adapter.sees["victim"] = ValueReading(name="victim", status="ok", position=Point(1.0, 2.0), stamp_ns=0)
+        await stage.settle()
+        assert "ready" in stage.whats
+        assert [letter.message.reading.name for letter in values.take()] == ["victim"]
