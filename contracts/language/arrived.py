@@ -6,6 +6,7 @@ from crew.contracts.language.mention import ROBOT_KINDS, MentionKind
 from crew.contracts.language.patterns import past_article
 from crew.contracts.language.recipients import Said, names_between, sentence_begins
 from crew.contracts.language.tokens import Shape, Token, reworded
+from crew.contracts.language.wordings import of_phrases
 from crew.contracts.language.words import word_set
 
 _STAYING = ("stay", "wait", "remain", "rest", "stand by", "stand", "sit", "hold", "park", "stop")
@@ -76,8 +77,9 @@ def sent_over(tokens: list[Token], at: int, lexicon: Lexicon) -> Said | None:
 
 def pointed_at(tokens: list[Token], at: int, lexicon: Lexicon) -> Said | None:
     """`grab the red cube there`, `lift the bottle off the table`: where it is, where no place was named."""
-    end = next((at + len(words) for words in _SHOWN if stands_all(tokens, at, words)), None)
-    if end is None or not at:
+    shown, _ = next(_SHOWN.standing(tokens, at), ((), ()))
+    end = at + len(shown)
+    if not shown or not at:
         return None
     closed = (
         end >= len(tokens) or tokens[end].shape is Shape.MARK or tokens[end].norm in ("and", "please", "then", "now")
@@ -95,9 +97,8 @@ def pointed_at(tokens: list[Token], at: int, lexicon: Lexicon) -> Said | None:
     return (end, []) if closed and thing and known and not places and verbs & _TAKING else None
 
 
-_SHOWN = tuple(
-    tuple(said.split())
-    for said in (
+_SHOWN = of_phrases(
+    (
         "there",
         "over there",
         "right there",

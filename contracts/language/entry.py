@@ -38,9 +38,12 @@ def stands(tokens: list[Token], at: int, words: Words) -> bool:
 
 def stands_all(tokens: list[Token], at: int, words: Words) -> bool:
     """Whether the words stand here."""
-    if words and (at >= len(tokens) or tokens[at].norm != words[0]):
+    if words and at + len(words) > len(tokens):
         return False
-    return len(words) < 2 or tuple(t.norm for t in tokens[at : at + len(words)]) == words
+    for k, word in enumerate(words):  # noqa: SIM110  (the reader's innermost loop; a generator takes twice the time)
+        if tokens[at + k].norm != word:
+            return False
+    return True
 
 
 def words_of(phrase: str) -> Words:

@@ -9,6 +9,7 @@ request does.
 """
 
 import re
+from collections import Counter, defaultdict
 from collections.abc import Callable, Iterator, Mapping
 from functools import cache
 from typing import NamedTuple
@@ -29,6 +30,8 @@ _CLOSES = frozenset(("and", "then", "please", "so", "now", "over", "thanks"))
 _PASSED = ARTICLES | AFFECTIVE | {"one"}
 _SELVES = frozenset((*SELF_WORDS, "us"))
 _SAME_PAST = frozenset(("put", "set"))
+_NONE: frozenset[int] = frozenset()
+_NO_WORDS: frozenset[str] = frozenset()
 
 Found = tuple[int, tuple[Token, ...]]
 """Where a name is over, and what is kept of it."""
@@ -70,12 +73,14 @@ def compiled(wording: str, plain: str) -> Pattern:
 
 def replaced(tokens: list[Token], templates: tuple[tuple[str, str], ...], lexicon: Lexicon) -> list[Token]:
     """The tokens with every wording in its plainer words; of several that fit at a place the first."""
-    patterns, table, loose = _indexed(templates)
+    index = _indexed(templates)
+    possible = index.always.union(*(index.needing.get(token.norm, _NONE) for token in tokens))
+    loose = index.loose & possible
     out: list[Token] = []
     at = 0
     while at < len(tokens):
-        for k in sorted((*table.get(tokens[at].norm, ()), *loose)):
-            found = _fits(patterns[k], tokens, at, lexicon)
+        for k in sorted(index.beginning.get(tokens[at].norm, _NONE) & possible | loose):
+            found = _fits(index.patterns[k], tokens, at, lexicon)
             if found is not None:
                 end, plain = found
                 out.extend(plain)
@@ -87,22 +92,49 @@ def replaced(tokens: list[Token], templates: tuple[tuple[str, str], ...], lexico
     return out
 
 
+class Index(NamedTuple):
+    """Patterns by number, and which of them are worth trying on a request, and where."""
+
+    patterns: tuple[Pattern, ...]
+    beginning: Mapping[str, frozenset[int]]
+    """By the word that they begin with."""
+    loose: frozenset[int]
+    """Those that begin with a name, or may begin with the next word."""
+    needing: Mapping[str, frozenset[int]]
+    """By a word without which they fit nowhere; of several such the one that fewest patterns hold."""
+    always: frozenset[int]
+    """Those that hold no such word."""
+
+
 @cache
-def _indexed(
-    templates: tuple[tuple[str, str], ...],
-) -> tuple[tuple[Pattern, ...], Mapping[str, tuple[int, ...]], tuple[int, ...]]:
-    """Patterns, those of each first word, and those that begin with a name or may begin with the next word."""
+def _indexed(templates: tuple[tuple[str, str], ...]) -> Index:
     patterns = tuple(compiled(*template) for template in templates)
-    table: dict[str, list[int]] = {}
-    loose = []
+    held = Counter(word for pattern in patterns for words in _needed(pattern) for word in words)
+    beginning, needing = defaultdict[str, set[int]](set), defaultdict[str, set[int]](set)
+    loose, always = set(), set()
     for k, pattern in enumerate(patterns):
         first = pattern.elements[0]
         if isinstance(first, Slot) or () in first:
-            loose.append(k)
-            continue
-        for word in dict.fromkeys(words[0] for words in first):
-            table.setdefault(word, []).append(k)
-    return patterns, {word: tuple(of) for word, of in table.items()}, tuple(loose)
+            loose.add(k)
+        else:
+            for words in first:
+                beginning[words[0]].add(k)
+        rarest = min(_needed(pattern), key=lambda words: sum(held[word] for word in words), default=_NO_WORDS)
+        for word in rarest:
+            needing[word].add(k)
+        if not rarest:
+            always.add(k)
+    return Index(patterns, _frozen(beginning), frozenset(loose), _frozen(needing), frozenset(always))
+
+
+def _needed(pattern: Pattern) -> list[frozenset[str]]:
+    """For each element that is no name and can't be left out: the first words of its choices."""
+    spoken = (e for e in pattern.elements if not isinstance(e, Slot) and () not in e)
+    return [frozenset(words[0] for words in element) for element in spoken]
+
+
+def _frozen(table: Mapping[str, set[int]]) -> dict[str, frozenset[int]]:
+    return {word: frozenset(numbers) for word, numbers in table.items()}
 
 
 def _fits(pattern: Pattern, tokens: list[Token], at: int, lexicon: Lexicon) -> tuple[int, list[Token]] | None:

@@ -9,6 +9,7 @@ from crew.contracts.language.lookahead import past_all
 from crew.contracts.language.mention import ROBOT_KINDS, MentionKind
 from crew.contracts.language.patterns import past_article
 from crew.contracts.language.tokens import Shape, Token, reworded
+from crew.contracts.language.wordings import of_phrases
 from crew.contracts.language.words import word_set
 
 _SENTENCE = frozenset(".!?;")
@@ -45,13 +46,9 @@ _PEOPLE = word_set(
     "theatre ward stage workshop office crowd party crew shift matron midwife sister manager management"
 )
 _KINDLY = word_set("little old dear young other poor sweet lovely small new")
-_TO_MINE = tuple(
-    (len(words), words)
-    for words in (
-        ("over", "to", "my"), ("to", "my"), ("at", "my"), ("by", "my"), ("beside", "my"), ("next", "to", "my"),
-        ("up", "to", "my"), ("to", "our"), ("into", "my"),
-    )
-)  # fmt: skip
+_TO_MINE = of_phrases(
+    ("over to my", "to my", "at my", "by my", "beside my", "next to my", "up to my", "to our", "into my")
+)
 NEEDING = tuple(
     tuple(said.split())
     for said in (
@@ -84,10 +81,10 @@ Said = tuple[int, list[Token]]
 
 def seat(tokens: list[Token], at: int, lexicon: Lexicon) -> Said | None:
     """`bring it to my armchair`: to whoever speaks, since things are brought to nowhere else."""
-    link = next((n for n, words in _TO_MINE if stands_all(tokens, at, words)), 0)
+    link, _ = next(_TO_MINE.standing(tokens, at), ((), ()))
     if not link:
         return None
-    seat = at + link
+    seat = at + len(link)
     while seat < len(tokens) and tokens[seat].norm in _SEAT_WORDS:
         seat += 1
     if seat >= len(tokens) or tokens[seat].norm not in _SEATS or tokens[seat].possessive:

@@ -11,11 +11,11 @@ from crew.contracts.language.mention import ROBOT_KINDS, MentionKind
 from crew.contracts.language.rewrites import HESITATIONS
 from crew.contracts.language.stories import SPEAKS
 from crew.contracts.language.tokens import Shape, Token
+from crew.contracts.language.wordings import of_phrases
 from crew.contracts.language.words import AFFECTIVE, IN_NEED
 
-_LINKS: tuple[Words, ...] = tuple(
-    tuple(said.split())
-    for said in (
+_LINKS = of_phrases(
+    (
         "i mean", "i meant", "or rather", "sorry", "that is", "that is to say", "i should say", "or should i say",
         "correction", "excuse me", "pardon", "pardon me", "i beg your pardon", "beg your pardon", "well", "you know",
         "in other words", "namely", "meaning", "which is", "which means", "rather", "what i mean is", "oops", "as in",
@@ -130,7 +130,7 @@ def _past_links(tokens: list[Token], at: int) -> tuple[int, set[Words]]:
     """Past marks, hesitations and corrections, and which there were of the latter two."""
     said: set[Words] = set()
     while at < len(tokens):
-        link = max((words for words in _LINKS if stands_all(tokens, at, words)), key=len, default=())
+        link, _ = next(_LINKS.standing(tokens, at), ((), ()))
         if tokens[at].norm in HESITATIONS:
             link = (tokens[at].norm,)
         elif tokens[at].norm not in _MARKS and not link:

@@ -1,7 +1,5 @@
 """Puts plainer words in place of wordings that say the same, before a request is scanned."""
 
-from collections.abc import Mapping, Sequence
-
 from crew.contracts.language.afield import AFIELD
 from crew.contracts.language.endings import endings
 from crew.contracts.language.entry import Words, stands_all
@@ -35,15 +33,13 @@ from crew.contracts.language.spoken import spoken
 from crew.contracts.language.staying import staying
 from crew.contracts.language.tokens import Shape, Token
 from crew.contracts.language.told import told
+from crew.contracts.language.wordings import Wordings
 from crew.contracts.language.words import PLACE_NOUNS
 
-Wordings = Mapping[str, Sequence[tuple[Words, Words]]]
 _GRABBED: tuple[Words, ...] = (("grab",), ("pick", "up"), ("get",), ("go", "get"), ("take",))
 _OVER = frozenset(("back", "over", "out", "along", "across", "up", "down", "on", "straight"))
 _ARROW_MARKS = frozenset("-=>")
-_WAITED: Wordings = {
-    first: tuple((words, ("go", "to")) for words in WAITING if words[0] == first) for first in {w[0] for w in WAITING}
-}
+_WAITED = Wordings(dict.fromkeys(WAITING, ("go", "to")))
 
 
 def rewritten(tokens: list[Token], lexicon: Lexicon) -> list[Token]:
@@ -124,9 +120,9 @@ def _before_name(
     tokens: list[Token], at: int, lexicon: Lexicon, table: Wordings, kind: MentionKind
 ) -> tuple[int, Words] | None:
     """`wait at the charger`, `could I get the bottle`: wordings that hold only before a name of a kind."""
-    for words, plain in table.get(tokens[at].norm, ()):
+    for words, plain in table.standing(tokens, at):
         name, _ = named(tokens, at + len(words), lexicon)
-        if stands_all(tokens, at, words) and name is not None and name.kind is kind:
+        if name is not None and name.kind is kind:
             return len(words), plain
     return None
 
@@ -138,10 +134,9 @@ def _ordered(tokens: list[Token], at: int) -> bool:
 
 def _before_goal(tokens: list[Token], at: int, lexicon: Lexicon) -> tuple[int, Words] | None:
     """`respond to 7.5, 1.5`: wordings that hold only before a place's name or a point."""
-    for words, plain in wordings_before_goals().get(tokens[at].norm, ()):
+    for words, plain in wordings_before_goals().standing(tokens, at):
         end = at + len(words)
-        figures = end < len(tokens) and (is_numeral(tokens, end) or tokens[end].norm in ("x", "(", *PLACE_NOUNS))
-        if stands_all(tokens, at, words) and figures:
+        if end < len(tokens) and (is_numeral(tokens, end) or tokens[end].norm in ("x", "(", *PLACE_NOUNS)):
             return len(words), plain
     return _before_name(tokens, at, lexicon, wordings_before_goals(), MentionKind.LOCATION)
 
@@ -172,7 +167,7 @@ def _for_me(tokens: list[Token], at: int, lexicon: Lexicon) -> tuple[int, Words]
 def _moved_robot(tokens: list[Token], at: int, lexicon: Lexicon) -> tuple[int, Words] | None:
     """`take the dog to the charger`, `park the rover at base`: to send it there."""
     summoned = tokens[at].norm in SENDING
-    if "send" not in lexicon.names or not (summoned or tokens[at].norm in wordings_before_robots()):
+    if "send" not in lexicon.names or not (summoned or tokens[at].norm in wordings_before_robots().firsts):
         return None
     name, end = named(tokens, at + 1, lexicon)
     if name is None or name.kind not in ROBOT_KINDS:
@@ -208,9 +203,9 @@ def _picked_and_put(tokens: list[Token], at: int, lexicon: Lexicon) -> tuple[int
 
 def _said(tokens: list[Token], at: int, lexicon: Lexicon) -> tuple[int, Words]:
     """The longest wording that stands here, with its plain words; 0 if there is none."""
-    for words, plain in wordings().get(tokens[at].norm, ()):
+    for words, plain in wordings().standing(tokens, at):
         ahead = at + len(words)
-        if not stands_all(tokens, at, words) or (len(words) == 1 and words[0] in lexicon.names):
+        if len(words) == 1 and words[0] in lexicon.names:
             continue
         counted = words[-1] == "to" and ahead < len(tokens) and is_numeral(tokens, ahead)
         if not counted or len(words) > 2:

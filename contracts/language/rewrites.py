@@ -5,7 +5,7 @@ A rewriting never adds a name, a place, a figure or a negation, and never takes 
 
 from functools import cache
 
-from crew.contracts.language.templates import expansions
+from crew.contracts.language.wordings import Wordings, of_templates
 
 Words = tuple[str, ...]
 
@@ -337,48 +337,39 @@ WAITING: tuple[Words, ...] = tuple(
 
 
 @cache
-def wordings() -> dict[str, tuple[tuple[Words, Words], ...]]:
-    """Every wording with its plain words, by its first word, the longest first."""
-    return _indexed(REWRITES)
+def wordings() -> Wordings:
+    """Every wording with its plain words."""
+    return of_templates(REWRITES)
 
 
 @cache
-def wordings_before_objects() -> dict[str, tuple[tuple[Words, Words], ...]]:
+def wordings_before_objects() -> Wordings:
     """The same, for wordings in front of an object's name."""
-    return _indexed(BEFORE_AN_OBJECT)
+    return of_templates(BEFORE_AN_OBJECT)
 
 
 @cache
-def wordings_before_places() -> dict[str, tuple[tuple[Words, Words], ...]]:
+def wordings_before_places() -> Wordings:
     """The same, for wordings in front of a place's name."""
-    return _indexed(BEFORE_A_PLACE)
+    return of_templates(BEFORE_A_PLACE)
 
 
 @cache
-def wordings_before_zones() -> dict[str, tuple[tuple[Words, Words], ...]]:
+def wordings_before_zones() -> Wordings:
     """The same, for wordings in front of a zone's name."""
-    return _indexed(BEFORE_A_ZONE)
+    return of_templates(BEFORE_A_ZONE)
 
 
 @cache
-def wordings_before_goals() -> dict[str, tuple[tuple[Words, Words], ...]]:
+def wordings_before_goals() -> Wordings:
     """The same, for wordings in front of a place's name or a point."""
-    return _indexed(BEFORE_A_GOAL)
+    return of_templates(BEFORE_A_GOAL)
 
 
 @cache
-def wordings_before_robots() -> dict[str, tuple[tuple[Words, Words], ...]]:
+def wordings_before_robots() -> Wordings:
     """The same, for wordings in front of a robot's name."""
-    return _indexed(BEFORE_A_ROBOT)
-
-
-def _indexed(templates: tuple[tuple[str, str], ...]) -> dict[str, tuple[tuple[Words, Words], ...]]:
-    found: dict[str, dict[Words, Words]] = {}
-    for template, plain in templates:
-        for wording in expansions(template):
-            words = tuple(wording.split())
-            found.setdefault(words[0], {}).setdefault(words, tuple(plain.split()))
-    return {first: tuple(sorted(of.items(), key=lambda i: -len(i[0]))) for first, of in found.items()}
+    return of_templates(BEFORE_A_ROBOT)
 
 
 @cache
@@ -386,7 +377,7 @@ def wording_words() -> frozenset[str]:
     """Every word of a wording: none of them is a slip."""
     before = (wordings_before_goals(), wordings_before_places(), wordings_before_robots(), wordings_before_zones())
     tables = (wordings(), wordings_before_objects(), *before)
-    said = (word for table in tables for of in table.values() for words, _ in of for word in words)
+    said = (word for table in tables for word in table.words)
     done = (w for verbs in DONE_AT.values() for said in verbs for w in said.split())
     return frozenset(
         (

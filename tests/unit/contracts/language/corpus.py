@@ -1,6 +1,7 @@
 """The corpus of requests and the judgement of one of them: propose, check arguments, match, check containment."""
 
 from collections.abc import Mapping
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -54,8 +55,12 @@ class Judged(msgspec.Struct, frozen=True, kw_only=True):
 
 
 def corpus(half: str, file: str = "requests_air_ground.yaml") -> list[Request]:
-    text = (Path(__file__).parent / file).read_text(encoding="utf-8")
-    return msgspec.convert(YAML(typ="safe").load(text)[half], list[Request])
+    return msgspec.convert(_halves(file)[half], list[Request])
+
+
+@cache
+def _halves(file: str) -> Mapping[str, Any]:
+    return YAML(typ="safe").load((Path(__file__).parent / file).read_text(encoding="utf-8"))  # type: ignore[no-any-return]
 
 
 def judge(text: str, rules: Rules, state: PlannerState = ON_GROUND) -> Judged:
