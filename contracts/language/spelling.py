@@ -84,7 +84,7 @@ def _left_out(word: str, meant: str) -> bool:
 
 
 def _stretched(word: str, meant: str) -> bool:
-    return len(word) > len(meant) and _runs(word) == _runs(meant)
+    return len(word) > len(meant) and word[-1:] == meant[-1:] and _runs(word) == _runs(meant)
 
 
 def _runs(word: str) -> str:

@@ -75,12 +75,16 @@ FAULTS: dict[Code, Callable[[Dispatch], Dispatch]] = {
 }
 
 
-def refusal_of(dispatch: Dispatch) -> Code | None:
-    strict = b.with_approval(dispatch.rules, "dispatch_only", "dispatch")
-    contract = strict.contracts["dispatch_only"]
+@pytest.fixture(scope="module")
+def strict(rules: Rules) -> Rules:
+    """One contract that asks for everything. Made once: the reader learns its words anew from each set of rules."""
+    contract = b.with_approval(rules, "dispatch_only", "dispatch").contracts["dispatch_only"]
     guards = (Condition(path="responder.moving", value=False), Condition(path="destination", value="ok"))
-    contract = replace(contract, needs=guards)
-    strict = replace(strict, contracts={"dispatch_only": contract})
+    return replace(rules, contracts={"dispatch_only": replace(contract, needs=guards)})
+
+
+def refusal_of(dispatch: Dispatch) -> Code | None:
+    strict = dispatch.rules
     mission = b.executing(dispatch.text, b.VICTIM_PLAN, strict, confirmed=True)
     if dispatch.consumed:
         record = replace(mission.steps["dispatch"], phase=StepPhase.SUCCEEDED)
@@ -96,19 +100,19 @@ def refusal_of(dispatch: Dispatch) -> Code | None:
     return None if refusal is None else refusal.code
 
 
-def test_the_unspoiled_dispatch_is_allowed(rules: Rules) -> None:
-    assert refusal_of(Dispatch(rules, b.DISPATCH)) is None
+def test_the_unspoiled_dispatch_is_allowed(strict: Rules) -> None:
+    assert refusal_of(Dispatch(strict, b.DISPATCH)) is None
 
 
 @pytest.mark.parametrize("code", FAULTS, ids=str)
-def test_one_fault_gives_its_code(code: Code, rules: Rules) -> None:
-    assert refusal_of(FAULTS[code](Dispatch(rules, b.DISPATCH))) is code
+def test_one_fault_gives_its_code(code: Code, strict: Rules) -> None:
+    assert refusal_of(FAULTS[code](Dispatch(strict, b.DISPATCH))) is code
 
 
-def test_of_two_faults_the_earlier_code_wins(rules: Rules) -> None:
+def test_of_two_faults_the_earlier_code_wins(strict: Rules) -> None:
     wrong = []
     for first, second in combinations(sorted(FAULTS, key=ORDER.__getitem__), 2):
-        found = refusal_of(FAULTS[second](FAULTS[first](Dispatch(rules, b.DISPATCH))))
+        found = refusal_of(FAULTS[second](FAULTS[first](Dispatch(strict, b.DISPATCH))))
         if found is not first:
             wrong.append(f"{first} and {second} give {found}")
     assert wrong == []
