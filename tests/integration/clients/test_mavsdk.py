@@ -9,7 +9,12 @@ import pytest
 from tests.integration.clients.paced_world import PacedWorld
 
 SPEED = 3.0
-FLAVOURS = [("quadcopter", "px4"), ("quadcopter", "ardupilot"), ("rover", "px4"), ("rover", "ardupilot")]
+FLAVOURS = [
+    ("quadcopter", "px4"),
+    ("rover", "ardupilot"),
+    pytest.param("quadcopter", "ardupilot", marks=pytest.mark.soak),
+    pytest.param("rover", "px4", marks=pytest.mark.soak),
+]
 VEHICLES = {"quadcopter": "iris", "rover": "tb3"}
 
 

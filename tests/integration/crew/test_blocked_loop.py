@@ -32,7 +32,7 @@ def spinning() -> None:
         pass
 
 
-@pytest.mark.parametrize("block", [asleep, spinning])
+@pytest.mark.parametrize("block", [pytest.param(asleep, marks=pytest.mark.soak), spinning])
 async def test_a_drone_whose_loop_is_blocked_stops_at_once(desk: Desk, block: Callable[[], None]) -> None:
     async with crew_with_threads(desk, "iris", speed=3.0) as crew:
         watch, iris = crew.watch, crew.threads["iris"]

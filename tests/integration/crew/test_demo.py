@@ -14,11 +14,6 @@ STEP_FIELDS = {"robot", "skill", "args", "outcome", "code"}
 NEAR = "search x from -6 to -3 and y from -6 to -3 and send the rover to the victim"
 
 
-@pytest.fixture(scope="module")
-def completed(desk: Desk) -> Demo:
-    return desk.demo()
-
-
 def test_the_rover_reaches_the_person_that_the_drone_found(completed: Demo) -> None:
     assert completed.code == 0, completed.stderr
     result = completed.result
@@ -48,8 +43,8 @@ def test_the_rover_is_sent_only_after_the_fix_was_published(completed: Demo) -> 
     assert found.issued_ns < fix.reading.stamp_ns < sent.issued_ns
 
 
-def test_the_run_verifies(desk: Desk, completed: Demo) -> None:
-    verified = desk.crew("verify", str(completed.run))
+def test_the_run_verifies(demo_desk: Desk, completed: Demo) -> None:
+    verified = demo_desk.crew("verify", str(completed.run))
     assert verified.returncode == 0, verified.stdout
     assert "every decision hold" in verified.stdout
 

@@ -2,8 +2,6 @@
 
 import math
 
-import pytest
-
 from tests.integration.crew.harness import Desk, intents, watching
 
 DELIVERED_M = 0.3
@@ -39,19 +37,21 @@ def test_a_load_lost_on_the_way_halts_and_its_true_place_is_told(desk: Desk) -> 
     assert math.dist((x, y), (0.08, -0.47)) < 3.0, "on the way from where it was loaded"
 
 
-@pytest.mark.parametrize(
-    ("request_", "code"),
-    [
-        ("bring me the piano", "unknown_object"),
-        ("carry the red cube to the rooftop helipad", "unknown_location"),
-        ("do not take the red cube to room_b", "forbidden_by_request"),
-    ],
-)
-def test_what_must_not_be_done_moves_nothing(desk: Desk, request_: str, code: str) -> None:
-    demo = desk.demo("humanoid_quadruped", "--map", "far", "--request", request_)
-    assert (demo.code, demo.result["outcome"]) == (3, "rejected"), demo
-    assert demo.result["code"] == code
-    assert intents(demo.run) == []
+MUST_NOT = {
+    "bring me the piano": "unknown_object",
+    "carry the red cube to the rooftop helipad": "unknown_location",
+    "do not take the red cube to room_b": "forbidden_by_request",
+}
+
+
+async def test_what_must_not_be_done_moves_nothing(desk: Desk) -> None:
+    with desk.up("humanoid_quadruped", "--map", "far") as up:
+        async with watching(up.running) as watch:
+            ends = {text: await watch.ended(watch.ask(text)) for text in MUST_NOT}
+        assert {text: (end.outcome, end.code) for text, end in ends.items()} == {
+            text: ("rejected", code) for text, code in MUST_NOT.items()
+        }
+        assert intents(up.run) == []
 
 
 async def test_a_second_request_during_the_walk_waits_for_the_walker_and_not_for_the_arm(desk: Desk) -> None:

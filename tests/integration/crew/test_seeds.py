@@ -10,7 +10,9 @@ import pytest
 from tests.integration.crew.harness import Desk
 
 
-@pytest.mark.parametrize(("map_", "seed"), [pytest.param("A", 1, marks=pytest.mark.soak), ("B", 2), ("C", 3)])
+@pytest.mark.parametrize(
+    ("map_", "seed"), [("B", 2), *(pytest.param(*s, marks=pytest.mark.soak) for s in (("A", 1), ("C", 3)))]
+)
 def test_the_rover_stands_within_half_a_metre_of_the_person(map_: str, seed: int, tmp_path: Path) -> None:
     demo = Desk(tmp_path).demo("--map", map_, "--seed", str(seed))
     assert demo.result["outcome"] == "completed", demo.result["message"]

@@ -84,7 +84,9 @@ def refusals(watch: Watch) -> list[RobotEvent]:
     return [e for e in watch.robot_events if e.what == "reset_refused"]
 
 
-@pytest.mark.parametrize("name", GARBAGE)
+@pytest.mark.parametrize(
+    "name", [n if n in ("a stop", "garbage") else pytest.param(n, marks=pytest.mark.soak) for n in GARBAGE]
+)
 async def test_one_message_stops_everything_in_mid_mission(watch: Watch, desk: Desk, up: Up, name: str) -> None:
     before = len(intents(up.run))
     search, drive = watch.ask(SEARCH), watch.ask(FAR_DRIVE)

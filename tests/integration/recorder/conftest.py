@@ -5,22 +5,22 @@ from pathlib import Path
 
 import pytest
 
-from tests.integration.crew.harness import Desk
+from tests.integration.crew.harness import Demo, Desk
 from tests.integration.recorder.browser import Viewer
 
 WEB_S = 30.0
 
 
 @pytest.fixture(scope="session")
-def desk(tmp_path_factory: pytest.TempPathFactory) -> Desk:
-    return Desk(tmp_path_factory.mktemp("recorder"))
+def desk(demo_desk: Desk) -> Desk:
+    return demo_desk
 
 
 @pytest.fixture(scope="session")
-def runs(desk: Desk) -> dict[str, Path]:
+def runs(desk: Desk, completed: Demo) -> dict[str, Path]:
     """Three runs as a user makes them, by how they end."""
     demos = {
-        "completed": desk.demo(),
+        "completed": completed,
         "halted": desk.demo("--fault", "missed_detection"),
         "rejected": desk.demo("--request", "Send the rover to room_b"),
     }

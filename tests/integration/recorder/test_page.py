@@ -23,7 +23,9 @@ def scene_is_drawn(shot: Shot) -> None:
     assert shot.colours(SCENE) > 300, "what stands on the ground is shaded"
 
 
-@pytest.mark.parametrize("outcome", ["completed", "halted", pytest.param("rejected", marks=pytest.mark.soak)])
+@pytest.mark.parametrize(
+    "outcome", ["completed", *(pytest.param(o, marks=pytest.mark.soak) for o in TONES if o != "completed")]
+)
 def test_a_real_run_is_shown(desk: Desk, runs: dict[str, Path], viewer: Viewer, outcome: str) -> None:
     with shown(desk, runs[outcome]) as address:
         shot = viewer.look(address, TONES[outcome])
