@@ -4,7 +4,9 @@ Only letters that were swapped, left out, or struck twice count: one letter for 
 `cube`). The first letter holds, unless it was swapped.
 """
 
+from collections import defaultdict
 from collections.abc import Collection, Iterable
+from functools import cache
 from typing import NamedTuple
 
 
@@ -31,17 +33,29 @@ SHORTEST_SWAPPED = 3
 
 def slips(word: str, meant: str) -> bool:
     """Whether a word is another one with two letters swapped, one left out, or some struck twice."""
-    begins = meant[:1] in word[:2]  # no slip moves the first letter further
-    return begins and word != meant and (_swapped(word, meant) or _left_out(word, meant) or _stretched(word, meant))
+    if meant[:1] not in word[:2] or word == meant:  # no slip moves the first letter further
+        return False
+    if len(word) == len(meant):
+        return _swapped(word, meant)
+    return _left_out(word, meant) if len(word) < len(meant) else _stretched(word, meant)
 
 
-def recognised(word: str, known: Iterable[str], shortest: int = SHORTEST) -> str | None:
+def recognised(word: str, known: frozenset[str], shortest: int = SHORTEST) -> str | None:
     """The one known word that was meant; None if there is none, or more than one."""
     if len(word) < 3:
         return None
-    likely = (other for other in known if len(other) >= shortest and other[0] in word[:2])
-    found = {other for other in likely if slips(word, other)}
+    likely = (other for first in set(word[:2]) for other in _by_first(known).get(first, ()))
+    found = {other for other in likely if len(other) >= shortest and slips(word, other)}
     return found.pop() if len(found) == 1 else None
+
+
+@cache
+def _by_first(known: frozenset[str]) -> dict[str, list[str]]:
+    """Words by their first letter."""
+    found = defaultdict[str, list[str]](list)
+    for word in known:
+        found[word[:1]].append(word)
+    return dict(found)
 
 
 def swapped(word: str, meant: str) -> bool:
@@ -84,7 +98,7 @@ def _left_out(word: str, meant: str) -> bool:
 
 
 def _stretched(word: str, meant: str) -> bool:
-    return len(word) > len(meant) and word[-1:] == meant[-1:] and _runs(word) == _runs(meant)
+    return word[-1:] == meant[-1:] and _runs(word) == _runs(meant)
 
 
 def _runs(word: str) -> str:

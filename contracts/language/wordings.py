@@ -16,6 +16,8 @@ class Wordings:
         for words in plain:
             lengths.setdefault(words[0], set()).add(len(words))
         self._lengths = {first: tuple(sorted(of, reverse=True)) for first, of in lengths.items()}
+        self.firsts = frozenset(lengths)
+        """The words that a wording begins with."""
 
     def standing(self, tokens: list[Token], at: int) -> Iterator[tuple[Words, Words]]:
         """Every wording that stands here, with its plain words, the longest first."""
@@ -24,11 +26,6 @@ class Wordings:
             plain = self._plain.get(words)
             if plain is not None:
                 yield words, plain
-
-    @property
-    def firsts(self) -> frozenset[str]:
-        """The words that a wording begins with."""
-        return frozenset(self._lengths)
 
     @property
     def words(self) -> frozenset[str]:

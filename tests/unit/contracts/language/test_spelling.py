@@ -109,5 +109,5 @@ def test_another_word_is_no_slip(word: str, other: str) -> None:
 
 
 def test_two_words_that_could_be_meant_are_not_guessed() -> None:
-    assert recognised("carrt", ["cart", "carrot"]) is None
-    assert recognised("wset", ["west", "wet"]) == "west"
+    assert recognised("carrt", frozenset(("cart", "carrot"))) is None
+    assert recognised("wset", frozenset(("west", "wet"))) == "west"
