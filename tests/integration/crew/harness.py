@@ -332,6 +332,11 @@ class Watch:
     def height(self, robot: str = "iris") -> float:
         return self.truths[-1].poses[robot][2] if self.truths else math.nan
 
+    def apart_m(self, robot: str, other: str) -> float:
+        """How far apart two robots truly are over the ground."""
+        poses = self.truths[-1].poses
+        return math.dist(poses[robot][:2], poses[other][:2])
+
     def _speed(self, robot: str) -> float:
         """Over the last half second or so of mission time; negative if that is not known yet."""
         if len(self.truths) < 6:

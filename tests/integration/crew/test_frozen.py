@@ -112,6 +112,7 @@ async def test_robots_of_a_frozen_router_make_themselves_safe_and_missions_halt(
 
 async def test_missions_in_a_frozen_simulation_halt_and_its_robots_stop_when_it_wakes(watch: Watch, up: Up) -> None:
     requests = await both_moving(watch)
+    await watch.until(lambda: watch.apart_m(*BOTH) > 3.0, 60.0, "the drone may land where it is: nobody is below it")
     async with frozen(watch, up, "simulation"):
         for request in requests:
             assert (await watch.ended(request)).outcome == "halted"
