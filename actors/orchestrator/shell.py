@@ -87,6 +87,17 @@ class MissionShell:
         for mission in self.open:
             self.feed(mission.id, ev.StoppedAll(at_ns=self._clock.now_ns(), by=by))
 
+    def stood_still(self, why: str) -> None:
+        """This process was frozen: a step whose effect was being looked for is as unknown as one under way."""
+        for mission in self.open:
+            for step_name in mission.active() if mission.phase is Phase.EXECUTING else ():
+                sequence = mission.steps[step_name].sequence
+                at_ns = self._clock.now_ns()
+                unknown = ev.Outcome(
+                    at_ns=at_ns, sequence=sequence, result="unknown", code="orchestrator_lost", detail=why
+                )
+                self.feed(mission.id, unknown)
+
     def _process(self, name: str, event: ev.AnyEvent) -> None:
         old = self.missions.get(name)
         if old is None:

@@ -116,6 +116,7 @@ class CrewWatch:
         self._ledger.note("stood_still", why)
         for spec in self._rules.crew.robots:
             self._shell.dispatcher.lose(spec.name, why, "orchestrator_lost")
+        self._shell.stood_still(why)
 
     def _watch_robot(self, name: str) -> None:
         why, before = self._world.lost(name), self._lost.get(name, UNHEARD)

@@ -38,9 +38,13 @@ class FakeShell:
         self.dispatcher = self
         self.lost: list[tuple[str, str]] = []
         self.orphans: list[tuple[str, str]] = []
+        self.doubted = 0
 
     def lose(self, robot: str, why: str, code: str = "robot_lost") -> None:
         self.lost.append((robot, code))
+
+    def stood_still(self, why: str) -> None:
+        self.doubted += 1
 
     def end_orphan(self, robot: str, running: str) -> None:
         self.orphans.append((robot, running))
@@ -84,6 +88,7 @@ async def test_an_orchestrator_that_stood_still_takes_every_outcome_as_unknown_o
     await asyncio.sleep(0.05)
     assert watched.shell.lost == [(robot, "orchestrator_lost") for robot in BOTH]
     assert watched.ledger.notes.count("stood_still") == 1
+    assert watched.shell.doubted == 1, "and so is what was being looked for"
 
 
 async def test_one_that_turns_loses_nobody(watched: Watched) -> None:
