@@ -89,14 +89,12 @@ class MissionShell:
 
     def stood_still(self, why: str) -> None:
         """This process was frozen: a step whose effect was being looked for is as unknown as one under way."""
-        for mission in self.open:
-            for step_name in mission.active() if mission.phase is Phase.EXECUTING else ():
-                sequence = mission.steps[step_name].sequence
-                at_ns = self._clock.now_ns()
-                unknown = ev.Outcome(
-                    at_ns=at_ns, sequence=sequence, result="unknown", code="orchestrator_lost", detail=why
+        at_ns, code = self._clock.now_ns(), "orchestrator_lost"
+        for mission in (m for m in self.open if m.phase is Phase.EXECUTING):
+            for sequence in [mission.steps[name].sequence for name in mission.active()]:
+                self.feed(
+                    mission.id, ev.Outcome(at_ns=at_ns, sequence=sequence, result="unknown", code=code, detail=why)
                 )
-                self.feed(mission.id, unknown)
 
     def _process(self, name: str, event: ev.AnyEvent) -> None:
         old = self.missions.get(name)

@@ -95,9 +95,7 @@ def endings(tokens: list[Token], lexicon: Lexicon) -> list[Token]:
         end = said.longest(_compiled("ends")) or (_begins(tokens, at) and said.longest(_compiled("calls")))
         after = said.spans[end - 1][1] if end else at
         if end and _closed(tokens, after, lexicon):
-            everything = Token(
-                "everything", tokens[at + 1 if after - at > 1 else at].start, tokens[after - 1].end, Shape.WORD
-            )
+            everything = reworded("everything", tokens[at + 1 if after - at > 1 else at], tokens[after - 1])
             out.extend((reworded(_ABORT, tokens[at]), everything))
             at = after
         else:

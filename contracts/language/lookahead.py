@@ -11,6 +11,9 @@ from crew.contracts.language.words import AFFECTIVE, Role
 
 ARTICLES = frozenset(("the", "a", "an", "all", "both", "your", "our", "my", "any", "this", "that", "these", "those"))
 
+SOFT = ARTICLES | AFFECTIVE
+"""What may stand in front of a name and says nothing."""
+
 
 def named(tokens: list[Token], at: int, lexicon: Lexicon) -> tuple[Entry | None, int]:
     """The name that stands here, past one article, and where it is over; without one, where the article is over."""

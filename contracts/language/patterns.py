@@ -18,16 +18,16 @@ from crew.contracts.language.entry import Entry, Words, stands_all
 from crew.contracts.language.figures import figure
 from crew.contracts.language.inflect import Form, inflections
 from crew.contracts.language.lexicon import Lexicon, match
-from crew.contracts.language.lookahead import ARTICLES, past_all
+from crew.contracts.language.lookahead import SOFT, past_all
 from crew.contracts.language.mention import ROBOT_KINDS, MentionKind
 from crew.contracts.language.tokens import Shape, Token
-from crew.contracts.language.words import AFFECTIVE, REQUESTER, SELF_WORDS
+from crew.contracts.language.words import REQUESTER, SELF_WORDS
 
 _PART = re.compile(r"\(([^()]*)\)|\{(\w+)\}|(\S+)")
 _OPENS = frozenset(("and", "then", "please", "so", "now", "just", "kindly", "to", "also", "okay", "ok", "well", "hey"))
 _ASKING = frozenset(("can", "could", "would", "will", "may", "might", "if", "mind"))
 _CLOSES = frozenset(("and", "then", "please", "so", "now", "over", "thanks"))
-_PASSED = ARTICLES | AFFECTIVE | {"one"}
+_PASSED = SOFT | {"one"}
 _SELVES = frozenset((*SELF_WORDS, "us"))
 _SAME_PAST = frozenset(("put", "set"))
 _NONE: frozenset[int] = frozenset()

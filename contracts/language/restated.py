@@ -6,13 +6,13 @@ it says whom a pronoun means: `drive to him, to the climber I mean`.
 
 from crew.contracts.language.entry import Entry, Words, stands_all
 from crew.contracts.language.lexicon import Lexicon, match
-from crew.contracts.language.lookahead import ARTICLES, past_all
+from crew.contracts.language.lookahead import ARTICLES, SOFT, past_all
 from crew.contracts.language.mention import ROBOT_KINDS, MentionKind
 from crew.contracts.language.rewrites import HESITATIONS
 from crew.contracts.language.stories import SPEAKS
 from crew.contracts.language.tokens import Shape, Token
 from crew.contracts.language.wordings import of_phrases
-from crew.contracts.language.words import AFFECTIVE, IN_NEED
+from crew.contracts.language.words import IN_NEED
 
 _LINKS = of_phrases(
     (
@@ -149,7 +149,7 @@ def _past_opening(tokens: list[Token], at: int, first: int, name: Entry | None) 
     at += link == "back"
     link = tokens[at].norm if at < len(tokens) else ""
     at += link == "to" or (link in _PLACED and owner >= 0 and tokens[owner].norm == link)
-    passed = ARTICLES | AFFECTIVE | (IN_NEED - {"there"})
+    passed = SOFT | (IN_NEED - {"there"})
     if name is not None and name.kind is MentionKind.ZONE:
         passed |= _WHOLE
     return past_all(tokens, at, passed)

@@ -6,11 +6,9 @@ from typing import NamedTuple
 
 from crew.contracts.language.entry import Entry
 from crew.contracts.language.lexicon import Lexicon, match
-from crew.contracts.language.lookahead import ARTICLES, past_all
+from crew.contracts.language.lookahead import SOFT, past_all
 from crew.contracts.language.tokens import Shape, Token
-from crew.contracts.language.words import AFFECTIVE
 
-_SOFT = ARTICLES | AFFECTIVE
 Naming = Callable[[Entry], str]
 """The symbol for a name; empty for one that stands for itself."""
 
@@ -34,7 +32,7 @@ def spelled(
     while at < len(tokens) and len(said.words) < longest:
         if tokens[at].shape is not Shape.WORD and tokens[at].norm not in marks:
             break
-        begin = past_all(tokens, at, _SOFT)
+        begin = past_all(tokens, at, SOFT)
         name = match(lexicon.names, tokens, begin) if begin < len(tokens) else None
         symbol = naming(name) if name is not None else ""
         after = begin + len(name.words) if name is not None and symbol else at + 1

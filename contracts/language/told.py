@@ -6,12 +6,12 @@ Every rule needs the robot's name in its place, and that each robot that may be 
 from crew.contracts.language.entry import Entry, stands_all
 from crew.contracts.language.figures import is_numeral
 from crew.contracts.language.lexicon import Lexicon, match
-from crew.contracts.language.lookahead import ARTICLES, named, past_all
+from crew.contracts.language.lookahead import ARTICLES, SOFT, named, past_all
 from crew.contracts.language.mention import ROBOT_KINDS, MentionKind
 from crew.contracts.language.patterns import begins
 from crew.contracts.language.rewrites import ASSIGNING, DOWN_ON, LOWERING, RAISING, TASKING, UP_IN
 from crew.contracts.language.tokens import Shape, Token, reworded
-from crew.contracts.language.words import AFFECTIVE, METRES
+from crew.contracts.language.words import METRES
 
 _LAUNCH, _LAND, _TELL = "launch", "land", "tell"
 _DOWN = (("down",), ("back", "down"), ("to", "ground"), ("to", "the", "ground"))
@@ -138,7 +138,7 @@ def _assigned(tokens: list[Token], at: int, lexicon: Lexicon) -> Rule | None:
 
 def _robot(tokens: list[Token], at: int, lexicon: Lexicon, verb: str = "") -> int | None:
     """Past one robot's name that stands here, if each robot it may mean has the skill of the verb."""
-    at = past_all(tokens, at, ARTICLES | AFFECTIVE)
+    at = past_all(tokens, at, SOFT)
     name = match(lexicon.names, tokens, at) if at < len(tokens) else None
     if name is None or name.kind not in ROBOT_KINDS or name.plural:
         return None
